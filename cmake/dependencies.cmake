@@ -1,0 +1,27 @@
+# Everything that Relevo takes from the system (Debian 12 packages; script/setup installs them).
+list(APPEND CMAKE_MODULE_PATH /usr/share/cmake/geographiclib)  # its find module lives on a path of its own
+find_package(PkgConfig REQUIRED)
+find_package(GDAL REQUIRED)
+find_package(PROJ REQUIRED)
+find_package(GeographicLib REQUIRED)
+find_package(OpenSSL REQUIRED)
+find_package(TBB REQUIRED)
+find_package(fmt REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(glm REQUIRED)
+
+if(RELEVO_VIEWER)
+  find_package(glfw3 REQUIRED)
+  pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
+  pkg_check_modules(imgui REQUIRED IMPORTED_TARGET imgui)
+  # OpenImageIO's own CMake target wants OpenCV's headers, which we do not use.
+  pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO)
+endif()
+if(RELEVO_TESTS)
+  find_package(GTest REQUIRED)
+endif()
+if(RELEVO_TESTS AND RELEVO_BENCHMARKS)
+  find_package(benchmark REQUIRED)
+endif()

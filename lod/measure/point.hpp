@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "geo/geoid.hpp"
+#include "geo/position.hpp"
+#include "lod/measure/height_sampler.hpp"
+
+namespace relevo::lod {
+
+enum class PointClass { land, none, outside };  // none: void
+
+/// Everything that is known of a place. Heights are absent where there are none.
+struct PointMeasurement {
+    geo::LatLon place;
+    PointClass kind = PointClass::outside;
+    std::optional<geo::OrthometricHeight> H;
+    std::optional<geo::EllipsoidalHeight> h;
+    std::optional<geo::Undulation> N;
+    double resolution_m = 0;  ///< post spacing there, the larger of both axes
+};
+
+/// Reads a place from the full data: bilinear between posts, the post itself within 1e-6 of one.
+/// \param geoid  for N; absent when the scene's datum has none here
+Result<PointMeasurement> measure_point(HeightSampler& sampler, const geo::Geoid* geoid, geo::LatLon place);
+
+}  // namespace relevo::lod

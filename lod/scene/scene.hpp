@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "geo/result.hpp"
+#include "lod/scene/raster.hpp"
+#include "lod/scene/scene_info.hpp"
+#include "lod/undulation_grid.hpp"
+
+namespace relevo::lod {
+
+/// A scene on disk, open for reading. Every block is checked against its checksum when it is read.
+///
+/// This class and SceneWriter are the only places that know how a scene lies on disk (docs/scene-format.md).
+class Scene {
+  public:
+    /// Fails with ErrorKind::input where there is no scene at the path, ErrorKind::damaged where it cannot be trusted.
+    static Result<Scene> open(const std::filesystem::path& path);
+
+    const SceneInfo& info() const { return info_; }
+    const std::filesystem::path& path() const { return path_; }
+    const UndulationGrid& undulations() const { return undulations_; }
+
+    /// Heights H of one block, metres, row by row, void = NaN. Blocks at the right and bottom edge are smaller.
+    Result<Raster<float>> read_heights(int block_column, int block_row) const;
+
+    /// All heights of the data, void = NaN.
+    Result<Raster<float>> read_all_heights() const;
+
+    /// The metric codes of the padded grid (soar/metrics.hpp); blocks that are not stored are 0.
+    Result<MetricRasters> read_all_metrics() const;
+
+    /// Reads every file and compares it with its checksum; the messages name each damaged block. Empty: all is well.
+    std::vector<std::string> verify() const;
+
+  private:
+    Scene() = default;
+
+    std::filesystem::path path_;
+    SceneInfo info_;
+    UndulationGrid undulations_;
+};
+
+}  // namespace relevo::lod

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "geo/frame.hpp"
+#include "geo/result.hpp"
+
+namespace relevo::lod {
+
+/// The surface that a scene's heights H are above.
+enum class VerticalDatum {
+    egm96,      ///< mean sea level, EGM96: h = H + N
+    ellipsoid,  ///< WGS 84 ellipsoid: the stored height is h
+    other,      ///< named in VerticalReference::name, no geoid here: h and N are unknown
+};
+
+struct VerticalReference {
+    VerticalDatum datum = VerticalDatum::egm96;
+    std::string name = "EGM96";  ///< for people
+    bool assumed = true;         ///< the source did not say
+};
+
+/// How heights are stored in the blocks.
+enum class HeightType {
+    int16,    ///< whole metres, void = kVoidInt16
+    float32,  ///< void = NaN
+};
+inline constexpr std::int16_t kVoidInt16 = -32768;
+
+/// One elevation file that went into a scene.
+struct SourceInfo {
+    std::string name;  ///< file name without its folder
+    std::string sha256;
+    std::string crs;             ///< "EPSG:32611", or the CRS's own name where it has no code
+    std::string crs_wkt;         ///< the whole definition, WKT2
+    int columns = 0;
+    int rows = 0;
+    double step_x = 0;           ///< post spacing along the source's own axes, in step_unit
+    double step_y = 0;
+    std::string step_unit;       ///< "degree", "metre", ...
+    std::string operation;       ///< the coordinate operation to WGS 84 that was used
+    std::optional<double> operation_accuracy_m;  ///< as stated by PROJ's database
+    std::string operation_note;  ///< a better operation that is not installed, else empty
+    std::string notes;           ///< anything else that was assumed or converted (units, scale, float64), for people
+};
+
+/// Scene surface against every valid post of the sources: bilinear scene height minus source height, metres.
+struct ResamplingError {
+    double rms_m = 0;
+    double max_m = 0;
+    std::uint64_t posts = 0;       ///< source posts compared
+    std::uint64_t lost_posts = 0;  ///< valid source posts where the scene has a void or nothing
+};
+
+/// A data file of the scene: one block of one layer.
+struct BlockInfo {
+    int column = 0;  ///< of the block, in blocks
+    int row = 0;
+    std::string file;  ///< relative to the scene's folder
+    std::string sha256;
+    std::uint64_t bytes = 0;
+};
+
+/// What scene.json says.
+struct SceneInfo {
+    static constexpr int kFormatVersion = 1;
+    static constexpr int kBlockSide = 512;  ///< posts a side of a block; blocks of heights do not overlap
+
+    geo::GridFrame frame;
+    VerticalReference vertical;
+    HeightType height_type = HeightType::float32;
+
+    double height_min_m = 0;
+    double height_max_m = 0;
+    std::uint64_t valid_posts = 0;
+    std::uint64_t void_posts = 0;
+
+    /// Largest difference between bilinear heights (measuring) and the triangles of the full mesh (drawing), metres.
+    double bilinear_mesh_max_m = 0;
+    ResamplingError resampling;
+    std::string resampling_method;  ///< "none" (own posts kept), "cubic", "bilinear", "nearest", "average"
+
+    std::vector<SourceInfo> sources;
+    std::vector<BlockInfo> heights;
+    std::vector<BlockInfo> metrics;
+    BlockInfo undulation;  ///< the one file of the coarse geoid grid
+
+    std::uint64_t bytes() const;  ///< of all data files
+};
+
+nlohmann::json to_json(const SceneInfo& info);
+Result<SceneInfo> scene_info_from_json(const nlohmann::json& json);
+
+}  // namespace relevo::lod

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <functional>
+
+#include "geo/frame.hpp"
+#include "lod/scene/raster.hpp"
+#include "lod/undulation_grid.hpp"
+
+namespace relevo::lod {
+
+/// Computes both object-space errors and the sphere radii of every vertex of the padded grid (docs/design.md):
+/// saturated, nested on the stored codes, rounded up.
+///
+/// - bounded: largest distance in space, over the valid posts of the vertex's diamond, between the post and the mesh
+///   without the vertex, compared at the same grid coordinates;
+/// - incremental: distance of the vertex from the middle of the edge that it splits (Lindstrom & Pascucci).
+///
+/// \param heights   H of the data, void = NaN
+/// \param progress  called with the part done, 0 to 1; may be empty
+MetricRasters build_metrics(const geo::GridFrame& frame, const UndulationGrid& undulations,
+                            const Raster<float>& heights, const std::function<void(double)>& progress = {});
+
+}  // namespace relevo::lod

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geo/post_positions.hpp"
+#include "geo/result.hpp"
+#include "lod/scene/raster.hpp"
+#include "lod/scene/scene.hpp"
+#include "lod/undulation_grid.hpp"
+
+namespace relevo::lod {
+
+/// Which object-space error drives the refinement.
+enum class ErrorMetric { bounded, incremental };
+
+/// A scene in memory, ready to be meshed: the padded 2^n + 1 grid with heights for every post (voids and padding are
+/// filled for the mesh only) and the metrics of every vertex.
+class Terrain {
+  public:
+    /// What refinement reads of a vertex, together in one place.
+    struct Post {
+        float H;               ///< metres above the vertical datum
+        std::uint16_t error;   ///< code of the object-space error
+        std::uint16_t radius;  ///< code of the sphere's radius; 0: nothing valid below
+    };
+
+    static Result<Terrain> load(const Scene& scene, ErrorMetric metric);
+
+    const geo::GridFrame& frame() const { return frame_; }
+    int levels() const { return levels_; }  ///< n: the grid has 2^n + 1 posts a side
+    const geo::PostPositions& positions() const { return positions_; }
+    const UndulationGrid& undulations() const { return undulations_; }
+
+    const Post& post(int column, int row) const {
+        return posts_[(static_cast<std::size_t>(row) << levels_) + static_cast<std::size_t>(row) +
+                      static_cast<std::size_t>(column)];
+    }
+
+    /// Heights H of the data as imported, void = NaN: what is true, unlike Post::H where there is nothing.
+    const Raster<float>& heights() const { return heights_; }
+
+    /// Upper bounds, by vertex level, for the surface H = 0 alone: what an exaggeration adds to errors and radii.
+    struct LevelBound {
+        double sag_m = 0;
+        double radius_m = 0;
+    };
+    const std::vector<LevelBound>& level_bounds() const { return level_bounds_; }
+
+    std::uint64_t memory_bytes() const;
+
+  private:
+    Terrain(const geo::GridFrame& frame, UndulationGrid undulations);
+
+    geo::GridFrame frame_;
+    int levels_;
+    geo::PostPositions positions_;
+    UndulationGrid undulations_;
+    Raster<float> heights_;
+    std::vector<Post> posts_;
+    std::vector<LevelBound> level_bounds_;
+};
+
+}  // namespace relevo::lod
