@@ -1,1 +1,1 @@
-// written next
+

@@ -11,10 +11,10 @@ namespace relevo::geo {
 
 /// A geoid model: the height N of mean sea level above the ellipsoid, everywhere on earth.
 ///
-/// The model's nodes are joined by an interpolating bicubic spline (C2; Unser 1999, "Splines: a perfect fit for signal
-/// and image processing"): periodic in longitude, and continued across a pole along the opposite meridian, so that no
-/// place on earth is special. At a node it is the node. Linear interpolation between the nodes of EGM96 15' is wrong by
-/// up to 1.15 m (GeographicLib's figures), cubic by 0.17 m.
+/// The model's nodes are joined by an interpolating bicubic spline (C2; Unser 1999, "Splines: a perfect fit
+/// for signal and image processing"): periodic in longitude, and continued across a pole along the opposite
+/// meridian, so that no place on earth is special. At a node it is the node. Linear interpolation between the
+/// nodes of EGM96 15' is wrong by up to 1.15 m (GeographicLib's figures), cubic by 0.17 m.
 class Geoid {
   public:
     /// EGM96 on its 15' grid, from PROJ's data (egm96_15.gtx, Debian package proj-data).
@@ -30,10 +30,10 @@ class Geoid {
   private:
     Geoid() = default;
 
-    int columns_ = 0;  // of the periodic grid: 360 / step
-    int rows_ = 0;     // 180 / step + 1, south to north
-    double step_ = 0;  // degrees
-    std::vector<double> coefficients_;  // of the spline, row by row from the south pole, columns from lon 0
+    int columns_ = 0;                   // of the periodic grid: 360 / step
+    int rows_ = 0;                      // 180 / step + 1, south to north
+    double west_ = 0;                   // longitude of column 0, degrees
+    std::vector<double> coefficients_;  // of the spline, row by row from the south pole
 };
 
 }  // namespace relevo::geo
