@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 
 #include "geo/position.hpp"
@@ -14,20 +15,27 @@ struct GeodesicLine {
 };
 GeodesicLine geodesic(LatLon from, LatLon to);
 
-/// The place that a geodesic reaches after length_m metres.
+/// The place that a geodesic reaches after length_m metres, lon in [-180, 180].
 LatLon geodesic_destination(LatLon from, Degrees azimuth, double length_m);
 
-/// Points along one geodesic; faster than geodesic_destination for many of them.
+/// Points along the geodesic between two places; faster than geodesic_destination for many of them. Copies share the
+/// same line.
 class GeodesicPath {
   public:
     GeodesicPath(LatLon from, LatLon to);
-    double length_m() const { return length_m_; }
+
+    double length_m() const;
+
+    /// The place after distance_m metres. lon is continuous from the start's: a path across the antimeridian runs on
+    /// past 180.
     LatLon at(double distance_m) const;
 
+    /// The direction of travel there, clockwise from north, in [0, 360).
+    Degrees azimuth(double distance_m) const;
+
   private:
-    LatLon from_;
-    Degrees azimuth_;
-    double length_m_;
+    struct Line;
+    std::shared_ptr<const Line> line_;
 };
 
 /// Area and perimeter of a polygon whose sides are geodesics. Positive whatever its direction; the smaller of the two
