@@ -1,10 +1,12 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "geo/post_positions.hpp"
 #include "geo/result.hpp"
+#include "lod/level_bounds.hpp"
 #include "lod/scene/raster.hpp"
 #include "lod/scene/scene.hpp"
 #include "lod/undulation_grid.hpp"
@@ -14,8 +16,8 @@ namespace relevo::lod {
 /// Which object-space error drives the refinement.
 enum class ErrorMetric { bounded, incremental };
 
-/// A scene in memory, ready to be meshed: the padded 2^n + 1 grid with heights for every post (voids and padding are
-/// filled for the mesh only) and the metrics of every vertex.
+/// A scene in memory, ready to be meshed: the padded 2^n + 1 grid with heights for every post (voids and
+/// padding are filled for the mesh only) and the metrics of every vertex.
 class Terrain {
   public:
     /// What refinement reads of a vertex, together in one place.
@@ -26,6 +28,10 @@ class Terrain {
     };
 
     static Result<Terrain> load(const Scene& scene, ErrorMetric metric);
+
+    /// From parts in memory: heights of the data (void = NaN) and the chosen metric's errors and radii.
+    Terrain(const geo::GridFrame& frame, UndulationGrid undulations, Raster<float> heights,
+            const MetricRasters& metrics, ErrorMetric metric);
 
     const geo::GridFrame& frame() const { return frame_; }
     int levels() const { return levels_; }  ///< n: the grid has 2^n + 1 posts a side
@@ -40,18 +46,23 @@ class Terrain {
     /// Heights H of the data as imported, void = NaN: what is true, unlike Post::H where there is nothing.
     const Raster<float>& heights() const { return heights_; }
 
-    /// Upper bounds, by vertex level, for the surface H = 0 alone: what an exaggeration adds to errors and radii.
-    struct LevelBound {
-        double sag_m = 0;
-        double radius_m = 0;
-    };
+    /// By vertex level: what an exaggeration adds to errors and radii.
     const std::vector<LevelBound>& level_bounds() const { return level_bounds_; }
 
     std::uint64_t memory_bytes() const;
 
-  private:
-    Terrain(const geo::GridFrame& frame, UndulationGrid undulations);
+    /// Is there a valid height at this post of the padded grid?
+    bool is_valid(int column, int row) const {
+        return column < frame_.columns && row < frame_.rows && !std::isnan(heights_.at(column, row));
+    }
 
+    /// The true position of a post (filled in voids and padding), ECEF, metres, with heights H exaggerated.
+    glm::dvec3 position(int column, int row, double exaggeration) const {
+        const double H = static_cast<double>(post(column, row).H);
+        return positions_.at(column, row, undulations_.at(column, row) + exaggeration * H);
+    }
+
+  private:
     geo::GridFrame frame_;
     int levels_;
     geo::PostPositions positions_;

@@ -16,7 +16,7 @@ struct Camera {
     geo::Geodetic eye;
     geo::Degrees heading;  ///< clockwise from north
     geo::Degrees pitch;    ///< 0 at the horizon, -90 straight down
-    geo::Degrees roll;     ///< positive: the horizon's left end goes up (the head leans to the right)
+    geo::Degrees roll;     ///< positive: the head leans to the right, the horizon's right end goes up
     geo::Degrees fov{60};  ///< vertical, in (0, 180)
     int width = 1280;      ///< of the picture, pixels
     int height = 720;
@@ -39,12 +39,13 @@ class View {
     /// Focal length in pixels: (height / 2) / tan(fov / 2).
     double focal_px() const { return focal_px_; }
 
-    /// Projection for OpenGL with clip control (lower left, zero to one): reversed depth, near / z, infinite far plane.
+    /// Projection for OpenGL with clip control (lower left, zero to one): reversed depth, near / z, infinite
+    /// far plane.
     glm::mat4 projection() const;
     static constexpr double kNearM = 1e-3;
 
-    /// Pixel coordinates of an offset from the eye: x to the right, y down, (0, 0) at the picture's upper left corner.
-    /// \pre in front of the eye: depth(offset) > 0
+    /// Pixel coordinates of an offset from the eye: x to the right, y down, (0, 0) at the picture's upper
+    /// left corner. \pre in front of the eye: depth(offset) > 0
     glm::dvec2 pixel(const glm::dvec3& offset) const;
     /// Distance along the view direction, metres.
     double depth(const glm::dvec3& offset) const;
@@ -53,23 +54,27 @@ class View {
     /// Unit direction of the ray through a pixel coordinate.
     glm::dvec3 ray(const glm::dvec2& pixel) const;
 
-    /// Unit normals, pointing outward, of the four side planes of the picture's pyramid; they all go through the eye. A
-    /// sphere at offset p of radius r is outside where dot(plane, p) > r for one of them. There is no near or far
-    /// plane: reversed depth needs none.
+    /// Unit normals, pointing outward, of the four side planes of the picture's pyramid; they all go through
+    /// the eye. A sphere at offset p of radius r is outside where dot(plane, p) > r for one of them. There is
+    /// no near or far plane: reversed depth needs none.
     const std::array<glm::dvec3, 4>& side_planes() const { return side_planes_; }
 
-    /// lambda of the screen-space error (DESIGN: focal_px / cos^2 of the picture's corner angle), pixels.
-    double lambda_px() const { return lambda_px_; }
-    /// kappa: 1 / cos of the picture's corner angle.
-    double kappa() const { return kappa_; }
+    /// What turns an object-space error into pixels anywhere in the picture (docs/design.md): an error of
+    /// delta metres at a distance of D metres or more moves a point by at most lambda_px * delta / (D - kappa
+    /// * delta) pixels.
+    struct ErrorScale {
+        double lambda_px;  ///< focal_px / cos^2 of the angle at the picture's corner
+        double kappa;      ///< 1 / cos of it
+    };
+    /// \param margin_px  the picture is widened by it on every side, for points that have moved out of it
+    /// that far
+    ErrorScale error_scale(double margin_px) const;
 
   private:
     Camera camera_;
     geo::Ecef eye_;
     glm::dmat3 rotation_;
     double focal_px_;
-    double lambda_px_;
-    double kappa_;
     std::array<glm::dvec3, 4> side_planes_;
 };
 

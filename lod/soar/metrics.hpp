@@ -8,10 +8,11 @@
 
 namespace relevo::lod {
 
-/// Computes both object-space errors and the sphere radii of every vertex of the padded grid (docs/design.md):
-/// saturated, nested on the stored codes, rounded up.
+/// Computes both object-space errors and the sphere radii of every vertex of the padded grid
+/// (docs/design.md): saturated, nested on the stored codes, rounded up.
 ///
-/// - bounded: largest distance in space, over the valid posts of the vertex's diamond, between the post and the mesh
+/// - bounded: largest distance in space, over the valid posts of the vertex's diamond, between the post and
+/// the mesh
 ///   without the vertex, compared at the same grid coordinates;
 /// - incremental: distance of the vertex from the middle of the edge that it splits (Lindstrom & Pascucci).
 ///

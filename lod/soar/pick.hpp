@@ -12,9 +12,9 @@ struct Hit {
     double distance_m = 0;  ///< along the ray
 };
 
-/// First intersection of a ray with the triangles of the full data, whatever is drawn; voids and padding are open.
-/// Descends the nested spheres: about the cost of a handful of frames' vertices.
-/// \param origin, direction  ECEF; the direction is a unit vector
+/// First intersection of a ray with the triangles of the full data, whatever is drawn; voids and padding are
+/// open. Descends the nested spheres: about the cost of a handful of frames' vertices. \param origin,
+/// direction  ECEF; the direction is a unit vector
 std::optional<Hit> pick(const Terrain& terrain, const geo::Ecef& origin, const glm::dvec3& direction,
                         double exaggeration = 1);
 
