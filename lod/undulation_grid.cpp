@@ -1,1 +1,110 @@
-// written next
+#include "lod/undulation_grid.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+
+namespace relevo::lod {
+namespace {
+
+/// N at a place of the grid. Rows beyond a pole (there are such in the padding) run on along the opposite
+/// meridian, as the positions of their posts do: N has no kink there.
+double undulation(const geo::Geoid& geoid, const geo::GridFrame& frame, geo::GridPosition at) {
+    geo::LatLon place = frame.lat_lon(at);
+    double lat = geo::wrapped_180(place.lat).value;
+    if (std::abs(lat) > 90) {
+        lat = std::copysign(180, lat) - lat;
+        place.lon = place.lon + geo::Degrees{180};
+    }
+    return geoid.undulation({geo::Degrees{lat}, place.lon}).m;
+}
+
+Raster<float> nodes_of(const geo::Geoid& geoid, const geo::GridFrame& frame, int shift) {
+    const int side = (1 << (frame.levels() - shift)) + 1;
+    Raster<float> nodes(side, side);
+    tbb::parallel_for(tbb::blocked_range<int>(0, side), [&](const tbb::blocked_range<int>& rows) {
+        for (int row = rows.begin(); row < rows.end(); ++row) {
+            for (int column = 0; column < side; ++column) {
+                const geo::GridPosition place{std::ldexp(column, shift), std::ldexp(row, shift)};
+                nodes.at(column, row) = static_cast<float>(undulation(geoid, frame, place));
+            }
+        }
+    });
+    return nodes;
+}
+
+/// Largest difference from the geoid over the data, at the middle of each cell of nodes and of its north and
+/// west side: there a bilinear function is farthest from a smooth one.
+double measured_error(const UndulationGrid& grid, const geo::Geoid& geoid, const geo::GridFrame& frame) {
+    const double step = std::ldexp(1, grid.shift());
+    const int cell_rows = std::min(static_cast<int>((frame.rows - 1) / step) + 1, grid.nodes().rows() - 1);
+    const int cell_columns =
+        std::min(static_cast<int>((frame.columns - 1) / step) + 1, grid.nodes().columns() - 1);
+    const std::array<geo::GridPosition, 3> middles{{{0.5, 0.5}, {0.5, 0}, {0, 0.5}}};
+    const auto worst_of_rows = [&](const tbb::blocked_range<int>& rows, double worst) {
+        for (int row = rows.begin(); row < rows.end(); ++row) {
+            for (int column = 0; column < cell_columns; ++column) {
+                for (const geo::GridPosition& middle : middles) {
+                    const geo::GridPosition place{(column + middle.column) * step, (row + middle.row) * step};
+                    worst = std::max(worst, std::abs(grid.at(place) - undulation(geoid, frame, place)));
+                }
+            }
+        }
+        return worst;
+    };
+    return tbb::parallel_reduce(tbb::blocked_range<int>(0, cell_rows), 0.0, worst_of_rows,
+                                [](double a, double b) { return std::max(a, b); });
+}
+
+/// The coarsest spacing worth a try: cells of 1/16 degree, a quarter of those of the geoid's own grid, so
+/// that the middles of cells do not step over what the geoid does between them.
+int coarsest_shift(const geo::GridFrame& frame) {
+    constexpr double kWidest = 1.0 / 16;
+    int shift = 0;
+    while (shift < frame.levels() && std::ldexp(std::max(frame.step_x, frame.step_y), shift + 1) <= kWidest)
+        ++shift;
+    return shift;
+}
+
+}  // namespace
+
+UndulationGrid::UndulationGrid(const geo::Geoid& geoid, const geo::GridFrame& frame) {
+    // A tenth is kept for places that are not measured and for the rounding of nodes to float (4e-6 m).
+    constexpr double kLimit = 0.9 * kMaxErrorM;
+    for (shift_ = coarsest_shift(frame);; --shift_) {
+        nodes_ = nodes_of(geoid, frame, shift_);
+        cells_per_post_ = std::ldexp(1, -shift_);
+        if (shift_ == 0 || measured_error(*this, geoid, frame) <= kLimit) return;
+    }
+}
+
+UndulationGrid::UndulationGrid(Raster<float> nodes, int shift)
+    : nodes_(std::move(nodes)), shift_(shift), cells_per_post_(std::ldexp(1, -shift)) {
+    assert(nodes_.columns() >= 2 && nodes_.rows() >= 2 && shift >= 0);
+}
+
+double UndulationGrid::at(int column, int row) const {
+    return at(geo::GridPosition{static_cast<double>(column), static_cast<double>(row)});
+}
+
+double UndulationGrid::at(geo::GridPosition place) const {
+    if (nodes_.columns() == 0) return 0;
+    const double x = place.column * cells_per_post_;
+    const double y = place.row * cells_per_post_;
+    const int column = std::clamp(static_cast<int>(x), 0, nodes_.columns() - 2);
+    const int row = std::clamp(static_cast<int>(y), 0, nodes_.rows() - 2);
+    const double u = x - column;
+    const double v = y - row;
+    const float* upper = nodes_.row(row) + column;
+    const float* lower = nodes_.row(row + 1) + column;
+    return (1 - v) * ((1 - u) * upper[0] + u * upper[1]) + v * ((1 - u) * lower[0] + u * lower[1]);
+}
+
+}  // namespace relevo::lod

@@ -17,7 +17,7 @@ class UndulationGrid {
     /// No undulation anywhere: heights above the ellipsoid.
     UndulationGrid() = default;
 
-    /// Covers the frame's padded grid.
+    /// Covers the frame's padded grid; the error is bounded over the data.
     UndulationGrid(const geo::Geoid& geoid, const geo::GridFrame& frame);
 
     /// From stored nodes: a node every 2^shift posts.
@@ -35,6 +35,7 @@ class UndulationGrid {
   private:
     Raster<float> nodes_;
     int shift_ = 0;
+    double cells_per_post_ = 1;  // 2^-shift
 };
 
 }  // namespace relevo::lod

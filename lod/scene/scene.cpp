@@ -1,1 +1,216 @@
-// written next
+#include "lod/scene/scene.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "lod/scene/block_file.hpp"
+#include "lod/scene/block_grid.hpp"
+#include "lod/scene/folder.hpp"
+#include "lod/scene/parallel_blocks.hpp"
+#include "lod/scene/scene_files.hpp"
+#include "lod/scene/sha256.hpp"
+
+namespace relevo::lod {
+namespace {
+
+constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
+
+/// The entry of a block in a list ordered by row and column; nothing where the block is not stored.
+const BlockInfo* find_block(const std::vector<BlockInfo>& blocks, int column, int row) {
+    const auto before = [](const BlockInfo& block, std::pair<int, int> place) {
+        return std::pair(block.row, block.column) < place;
+    };
+    const auto found = std::lower_bound(blocks.begin(), blocks.end(), std::pair(row, column), before);
+    return found != blocks.end() && found->row == row && found->column == column ? &*found : nullptr;
+}
+
+template <class T>
+void paste(const T* samples, const BlockGrid::Box& box, Raster<T>& into) {
+    for (int row = 0; row < box.rows; ++row) {
+        const T* from = samples + static_cast<std::ptrdiff_t>(row) * box.columns;
+        std::copy_n(from, box.columns, into.row(box.row + row) + box.column);
+    }
+}
+
+float height_from(std::int16_t sample) {
+    return sample == kVoidInt16 ? kVoid : static_cast<float>(sample);
+}
+float height_from(float sample) {
+    return sample;
+}
+
+template <class T>
+Result<Raster<float>> decode_heights(std::span<const std::byte> bytes, const BlockGrid::Box& box,
+                                     const std::string& name) {
+    const Result<std::vector<T>> samples = decode_block<T>(bytes, {box.columns, box.rows}, name);
+    if (!samples) return samples.error();
+    Raster<float> heights(box.columns, box.rows);
+    std::ranges::transform(*samples, heights.samples().begin(), [](T sample) { return height_from(sample); });
+    return heights;
+}
+
+Error damaged(const std::filesystem::path& path, const std::string& what) {
+    return {ErrorKind::damaged, fmt::format("{} is damaged: {}", path.string(), what)};
+}
+
+/// The nodes of a stored grid lie every 2^shift posts, and their number says which shift that is.
+std::optional<int> shift_of(BlockShape nodes, int levels) {
+    for (int shift = 0; shift <= levels; ++shift) {
+        if (nodes.columns == (1 << (levels - shift)) + 1 && nodes.rows == nodes.columns) return shift;
+    }
+    return std::nullopt;
+}
+
+Result<UndulationGrid> decode_undulations(std::span<const std::byte> bytes, int levels,
+                                          const std::filesystem::path& path) {
+    const std::string name = (path / kUndulationFile).string();
+    const Result<BlockShape> shape = block_shape(bytes, name);
+    if (!shape) return shape.error();
+    const std::optional<int> shift = shift_of(*shape, levels);
+    if (!shift) return damaged(path, fmt::format("{} has the wrong size", kUndulationFile));
+    Result<std::vector<float>> nodes = decode_block<float>(bytes, *shape, name);
+    if (!nodes) return nodes.error();
+    Raster<float> raster(shape->columns, shape->rows);
+    raster.samples() = std::move(*nodes);
+    return UndulationGrid(std::move(raster), *shift);
+}
+
+/// The folder, marked as being read. A writer that replaces the scene between the two steps makes us begin
+/// again.
+Result<Folder> open_for_reading(const std::filesystem::path& path) {
+    for (;;) {
+        Result<Folder> folder = Folder::open(path);
+        if (!folder) return folder;
+        folder->mark_in_use();
+        if (folder->has_its_name()) return folder;
+    }
+}
+
+}  // namespace
+
+Result<Scene> Scene::open(const std::filesystem::path& path) {
+    Result<Folder> folder = open_for_reading(path);
+    if (!folder) return folder.error();
+    std::error_code ignored;
+    if (!std::filesystem::exists(path / kSceneFile, ignored)) {
+        return Error{
+            ErrorKind::input,
+            fmt::format("{} is not a scene: it has no {}; `relevo ingest` makes scenes from elevation files",
+                        path.string(), kSceneFile)};
+    }
+    Scene scene;
+    scene.path_ = path;
+    scene.folder_ = std::make_shared<const Folder>(std::move(*folder));
+
+    const Result<std::vector<std::byte>> bytes = scene.folder_->read(kSceneFile);
+    if (!bytes) return bytes.error();
+    Result<SceneInfo> info =
+        scene_info_from_text({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+    if (!info) {
+        const std::string what = fmt::format("{}: {}", (path / kSceneFile).string(), info.error().message);
+        return Error{info.error().kind, what};
+    }
+    scene.info_ = std::move(*info);
+    if (scene.info_.undulation.file.empty()) return scene;
+
+    const Result<std::vector<std::byte>> nodes = scene.read_block(scene.info_.undulation);
+    if (!nodes) return nodes.error();
+    Result<UndulationGrid> undulations = decode_undulations(*nodes, scene.info_.frame.levels(), path);
+    if (!undulations) return undulations.error();
+    scene.undulations_ = std::move(*undulations);
+    return scene;
+}
+
+Result<std::vector<std::byte>> Scene::read_block(const BlockInfo& block) const {
+    Result<std::vector<std::byte>> bytes = folder_->read(block.file);
+    if (bytes && sha256_hex(*bytes) != block.sha256) {
+        return damaged(path_, fmt::format("{}: its checksum is wrong", block.file));
+    }
+    return bytes;
+}
+
+Result<Raster<float>> Scene::read_heights(int block_column, int block_row) const {
+    const BlockGrid grid = BlockGrid::of_heights(info_.frame.columns, info_.frame.rows);
+    const BlockGrid::Box box = grid.box(block_column, block_row);
+    const BlockInfo* block = find_block(info_.heights, block_column, block_row);
+    if (block == nullptr) return Raster<float>(box.columns, box.rows, kVoid);
+
+    const Result<std::vector<std::byte>> bytes = read_block(*block);
+    if (!bytes) return bytes.error();
+    const std::string name = (path_ / block->file).string();
+    return info_.height_type == HeightType::int16 ? decode_heights<std::int16_t>(*bytes, box, name)
+                                                  : decode_heights<float>(*bytes, box, name);
+}
+
+Result<Raster<float>> Scene::read_all_heights() const {
+    const BlockGrid grid = BlockGrid::of_heights(info_.frame.columns, info_.frame.rows);
+    Raster<float> heights(info_.frame.columns, info_.frame.rows, kVoid);
+    const Result<void> done =
+        for_each_block(static_cast<int>(info_.heights.size()), [&](int i) -> Result<void> {
+            const BlockInfo& block = info_.heights[static_cast<std::size_t>(i)];
+            const Result<Raster<float>> part = read_heights(block.column, block.row);
+            if (!part) return part.error();
+            paste(part->samples().data(), grid.box(block.column, block.row), heights);
+            return {};
+        });
+    if (!done) return done.error();
+    return heights;
+}
+
+Result<MetricRasters> Scene::read_all_metrics() const {
+    const int side = info_.frame.padded_side();
+    const BlockGrid grid = BlockGrid::of_metrics(side);
+    MetricRasters metrics{Raster<std::uint16_t>(side, side), Raster<std::uint16_t>(side, side),
+                          Raster<std::uint16_t>(side, side)};
+    const Result<void> done =
+        for_each_block(static_cast<int>(info_.metrics.size()), [&](int i) -> Result<void> {
+            const BlockInfo& block = info_.metrics[static_cast<std::size_t>(i)];
+            const Result<std::vector<std::byte>> bytes = read_block(block);
+            if (!bytes) return bytes.error();
+            const BlockGrid::Box box = grid.box(block.column, block.row);
+            const BlockShape shape{box.columns, box.rows, 3};
+            const Result<std::vector<std::uint16_t>> samples =
+                decode_block<std::uint16_t>(*bytes, shape, (path_ / block.file).string());
+            if (!samples) return samples.error();
+            const std::size_t band = shape.samples() / 3;
+            paste(samples->data(), box, metrics.bounded);
+            paste(samples->data() + band, box, metrics.incremental);
+            paste(samples->data() + 2 * band, box, metrics.radius);
+            return {};
+        });
+    if (!done) return done.error();
+    return metrics;
+}
+
+std::vector<std::string> Scene::verify() const {
+    std::vector<const BlockInfo*> blocks;
+    for (const BlockInfo& block : info_.heights) blocks.push_back(&block);
+    for (const BlockInfo& block : info_.metrics) blocks.push_back(&block);
+    if (!info_.undulation.file.empty()) blocks.push_back(&info_.undulation);
+
+    std::vector<std::string> messages(blocks.size() + 1);
+    // Failures are kept one by one here: every damaged block is to be named, not the first alone.
+    const Result<void> ignored = for_each_block(static_cast<int>(blocks.size()), [&](int i) -> Result<void> {
+        const auto index = static_cast<std::size_t>(i);
+        const Result<std::vector<std::byte>> bytes = read_block(*blocks[index]);
+        if (!bytes) messages[index] = bytes.error().message;
+        return {};
+    });
+    (void)ignored;
+
+    const Result<std::vector<std::byte>> mosaic = folder_->read(kMosaicFile);
+    const std::string expected = mosaic_text(info_);
+    if (!mosaic) {
+        messages.back() = mosaic.error().message;
+    } else if (!std::ranges::equal(*mosaic, std::as_bytes(std::span(expected)))) {
+        messages.back() = damaged(path_, fmt::format("{} was changed", kMosaicFile)).message;
+    }
+    std::erase(messages, "");
+    return messages;
+}
+
+}  // namespace relevo::lod

@@ -2,7 +2,8 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <span>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "geo/result.hpp"
@@ -12,19 +13,24 @@
 
 namespace relevo::lod {
 
-/// A scene on disk, open for reading. Every block is checked against its checksum when it is read.
+class Folder;
+
+/// A scene on disk, open for reading. Every block is checked against its checksum when it is read. What was
+/// opened stays readable when another scene takes its place.
 ///
 /// This class and SceneWriter are the only places that know how a scene lies on disk (docs/scene-format.md).
 class Scene {
   public:
-    /// Fails with ErrorKind::input where there is no scene at the path, ErrorKind::damaged where it cannot be trusted.
+    /// Fails with ErrorKind::input where there is no scene at the path, ErrorKind::damaged where it cannot be
+    /// trusted.
     static Result<Scene> open(const std::filesystem::path& path);
 
     const SceneInfo& info() const { return info_; }
     const std::filesystem::path& path() const { return path_; }
     const UndulationGrid& undulations() const { return undulations_; }
 
-    /// Heights H of one block, metres, row by row, void = NaN. Blocks at the right and bottom edge are smaller.
+    /// Heights H of one block, metres, row by row, void = NaN. Blocks at the right and bottom edge are
+    /// smaller. \pre the block is one of the scene's
     Result<Raster<float>> read_heights(int block_column, int block_row) const;
 
     /// All heights of the data, void = NaN.
@@ -33,13 +39,17 @@ class Scene {
     /// The metric codes of the padded grid (soar/metrics.hpp); blocks that are not stored are 0.
     Result<MetricRasters> read_all_metrics() const;
 
-    /// Reads every file and compares it with its checksum; the messages name each damaged block. Empty: all is well.
+    /// Reads every file and compares it with its checksum; the messages name each damaged block. Empty: all
+    /// is well.
     std::vector<std::string> verify() const;
 
   private:
     Scene() = default;
 
+    Result<std::vector<std::byte>> read_block(const BlockInfo& block) const;
+
     std::filesystem::path path_;
+    std::shared_ptr<const Folder> folder_;
     SceneInfo info_;
     UndulationGrid undulations_;
 };

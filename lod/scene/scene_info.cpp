@@ -1,1 +1,268 @@
-// written next
+#include "lod/scene/scene_info.hpp"
+
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "lod/scene/block_grid.hpp"
+#include "lod/scene/json_fields.hpp"
+#include "lod/scene/scene_files.hpp"
+
+namespace relevo::lod {
+namespace {
+
+constexpr int kMaxSide = 1 << 24;  // posts; the whole earth at 0.1"
+constexpr double kMaxHeight = 1e6;
+
+nlohmann::json to_json(const SourceInfo& source) {
+    nlohmann::json json = {{"name", source.name},
+                           {"sha256", source.sha256},
+                           {"crs", source.crs},
+                           {"crs_wkt", source.crs_wkt},
+                           {"columns", source.columns},
+                           {"rows", source.rows},
+                           {"step_x", source.step_x},
+                           {"step_y", source.step_y},
+                           {"step_unit", source.step_unit},
+                           {"operation", source.operation},
+                           {"operation_accuracy_m", nullptr},
+                           {"operation_note", source.operation_note},
+                           {"notes", source.notes}};
+    if (source.operation_accuracy_m) json["operation_accuracy_m"] = *source.operation_accuracy_m;
+    return json;
+}
+
+SourceInfo source_from(JsonFields& fields) {
+    SourceInfo source;
+    source.name = fields.text("name");
+    source.sha256 = fields.text("sha256");
+    source.crs = fields.text("crs");
+    source.crs_wkt = fields.text("crs_wkt");
+    source.columns = fields.integer("columns", 0, std::numeric_limits<int>::max());
+    source.rows = fields.integer("rows", 0, std::numeric_limits<int>::max());
+    source.step_x = fields.number("step_x");
+    source.step_y = fields.number("step_y");
+    source.step_unit = fields.text("step_unit");
+    source.operation = fields.text("operation");
+    source.operation_accuracy_m = fields.optional_number("operation_accuracy_m");
+    source.operation_note = fields.text("operation_note");
+    source.notes = fields.text("notes");
+    return source;
+}
+
+nlohmann::json to_json(const BlockInfo& block) {
+    return {{"column", block.column},
+            {"row", block.row},
+            {"file", block.file},
+            {"sha256", block.sha256},
+            {"bytes", block.bytes}};
+}
+
+nlohmann::json to_json(const std::vector<BlockInfo>& blocks) {
+    nlohmann::json json = nlohmann::json::array();
+    for (const BlockInfo& block : blocks) json.push_back(to_json(block));
+    return json;
+}
+
+/// A scene names its files by one rule, so no name can lead out of its folder.
+BlockInfo block_from(JsonFields& fields, const std::string& file) {
+    BlockInfo block;
+    block.file = fields.text("file");
+    if (block.file != file) fields.wrong("file", fmt::format("is not {}", file));
+    block.sha256 = fields.text("sha256");
+    block.bytes = fields.count("bytes", std::uint64_t{1} << 40);
+    return block;
+}
+
+std::vector<BlockInfo> blocks_from(JsonFields& scene, const char* key, const BlockGrid& grid) {
+    std::vector<BlockInfo> blocks;
+    scene.each(key, [&](JsonFields& fields) {
+        const int column = fields.integer("column", 0, grid.across - 1);
+        const int row = fields.integer("row", 0, grid.down - 1);
+        BlockInfo block = block_from(fields, block_file_name(key, column, row));
+        block.column = column;
+        block.row = row;
+        if (!blocks.empty() && std::pair(blocks.back().row, blocks.back().column) >= std::pair(row, column)) {
+            fields.wrong("column", "is out of order");
+        }
+        blocks.push_back(std::move(block));
+    });
+    return blocks;
+}
+
+nlohmann::json to_json(const geo::GridFrame& frame) {
+    return {{"kind", to_string(frame.kind)}, {"west", frame.west},     {"north", frame.north},
+            {"step_x", frame.step_x},        {"step_y", frame.step_y}, {"step_unit", step_unit(frame.kind)},
+            {"columns", frame.columns},      {"rows", frame.rows}};
+}
+
+geo::GridFrame frame_from(JsonFields fields) {
+    geo::GridFrame frame;
+    if (fields.text("kind") != to_string(geo::FrameKind::geographic)) fields.wrong("kind", "is unknown");
+    frame.west = fields.number("west", -180, 180);
+    frame.north = fields.number("north", -90 - 1e-9, 90 + 1e-9);
+    frame.step_x = fields.number("step_x", 1e-9, 360);
+    frame.step_y = fields.number("step_y", 1e-9, 180);
+    frame.columns = fields.integer("columns", 1, kMaxSide);
+    frame.rows = fields.integer("rows", 1, kMaxSide);
+    // A row or column more than the earth holds is the closing one, at most.
+    if ((frame.columns - 1) * frame.step_x > 360 + frame.step_x)
+        fields.wrong("step_x", "goes round the earth twice");
+    if (frame.north - (frame.rows - 1) * frame.step_y < -90 - frame.step_y) {
+        fields.wrong("step_y", "goes beyond the south pole");
+    }
+    return frame;
+}
+
+template <class Enum>
+Enum named(JsonFields& fields, const char* key, std::initializer_list<Enum> values) {
+    const std::string name = fields.text(key);
+    for (const Enum value : values) {
+        if (name == to_string(value)) return value;
+    }
+    fields.wrong(key, "is unknown");
+    return *values.begin();
+}
+
+ResamplingError resampling_from(JsonFields fields, std::string& method) {
+    ResamplingError error;
+    method = fields.text("method");
+    error.rms_m = fields.number("rms_m", 0, kMaxHeight);
+    error.max_m = fields.number("max_m", 0, kMaxHeight);
+    error.posts = fields.count("posts");
+    error.lost_posts = fields.count("lost_posts");
+    return error;
+}
+
+/// Blocks that are not stored hold voids alone, so there cannot be more posts in them than there are voids.
+bool voids_fit(const SceneInfo& info, const BlockGrid& grid) {
+    std::uint64_t stored = 0;
+    for (const BlockInfo& block : info.heights) {
+        const BlockGrid::Box box = grid.box(block.column, block.row);
+        stored += static_cast<std::uint64_t>(box.columns) * static_cast<std::uint64_t>(box.rows);
+    }
+    return stored >= info.valid_posts;
+}
+
+void read_statistics(JsonFields& fields, SceneInfo& info) {
+    info.height_min_m = fields.number("height_min_m", -kMaxHeight, kMaxHeight);
+    info.height_max_m = fields.number("height_max_m", info.height_min_m, kMaxHeight);
+    const std::uint64_t posts =
+        static_cast<std::uint64_t>(info.frame.columns) * static_cast<std::uint64_t>(info.frame.rows);
+    info.valid_posts = fields.count("valid_posts", posts);
+    info.void_posts = fields.count("void_posts", posts);
+    if (info.valid_posts + info.void_posts != posts)
+        fields.wrong("void_posts", "does not add up with valid_posts");
+    info.bilinear_mesh_max_m = fields.number("bilinear_mesh_max_m", 0, 2 * kMaxHeight);
+    info.resampling = resampling_from(fields.object("resampling"), info.resampling_method);
+}
+
+void read_files(JsonFields& fields, SceneInfo& info) {
+    const BlockGrid heights = BlockGrid::of_heights(info.frame.columns, info.frame.rows);
+    info.heights = blocks_from(fields, kHeightsFolder, heights);
+    info.metrics = blocks_from(fields, kMetricsFolder, BlockGrid::of_metrics(info.frame.padded_side()));
+    if (!fields.is_null("undulation")) {
+        JsonFields undulation = fields.object("undulation");
+        info.undulation = block_from(undulation, kUndulationFile);
+    }
+    if (!voids_fit(info, heights)) fields.wrong("heights", "lacks blocks that hold valid posts");
+}
+
+}  // namespace
+
+std::uint64_t SceneInfo::bytes() const {
+    const auto add = [](std::uint64_t sum, const BlockInfo& block) { return sum + block.bytes; };
+    const std::uint64_t all_heights = std::accumulate(heights.begin(), heights.end(), undulation.bytes, add);
+    return std::accumulate(metrics.begin(), metrics.end(), all_heights, add);
+}
+
+const char* to_string(VerticalDatum datum) {
+    switch (datum) {
+        case VerticalDatum::egm96:
+            return "egm96";
+        case VerticalDatum::ellipsoid:
+            return "ellipsoid";
+        case VerticalDatum::other:
+            break;
+    }
+    return "other";
+}
+
+const char* to_string(HeightType type) {
+    return type == HeightType::int16 ? "int16" : "float32";
+}
+
+const char* to_string(geo::FrameKind kind) {
+    switch (kind) {
+        case geo::FrameKind::geographic:
+            break;
+    }
+    return "geographic";
+}
+
+const char* step_unit(geo::FrameKind kind) {
+    switch (kind) {
+        case geo::FrameKind::geographic:
+            break;
+    }
+    return "degree";
+}
+
+nlohmann::json to_json(const SceneInfo& info) {
+    nlohmann::json sources = nlohmann::json::array();
+    for (const SourceInfo& source : info.sources) sources.push_back(to_json(source));
+    return {{"format_version", SceneInfo::kFormatVersion},
+            {"frame", to_json(info.frame)},
+            {"vertical_datum", to_string(info.vertical.datum)},
+            {"vertical_name", info.vertical.name},
+            {"vertical_assumed", info.vertical.assumed},
+            {"height_type", to_string(info.height_type)},
+            {"height_min_m", info.height_min_m},
+            {"height_max_m", info.height_max_m},
+            {"valid_posts", info.valid_posts},
+            {"void_posts", info.void_posts},
+            {"bilinear_mesh_max_m", info.bilinear_mesh_max_m},
+            {"resampling",
+             {{"method", info.resampling_method},
+              {"rms_m", info.resampling.rms_m},
+              {"max_m", info.resampling.max_m},
+              {"posts", info.resampling.posts},
+              {"lost_posts", info.resampling.lost_posts}}},
+            {"sources", std::move(sources)},
+            {"block_side", SceneInfo::kBlockSide},
+            {"heights", to_json(info.heights)},
+            {"metrics", to_json(info.metrics)},
+            {"undulation", info.undulation.file.empty() ? nlohmann::json() : to_json(info.undulation)}};
+}
+
+Result<SceneInfo> scene_info_from_json(const nlohmann::json& json) {
+    std::string problem;
+    JsonFields fields(json, "", problem);
+    const auto version = fields.count("format_version");
+    if (problem.empty() && version > static_cast<std::uint64_t>(SceneInfo::kFormatVersion)) {
+        return Error{
+            ErrorKind::input,
+            fmt::format("it has format version {}, and this Relevo reads up to {}: use a newer Relevo",
+                        version, SceneInfo::kFormatVersion)};
+    }
+    if (version == 0) fields.wrong("format_version", "is unknown");
+
+    SceneInfo info;
+    info.frame = frame_from(fields.object("frame"));
+    info.vertical.datum = named(fields, "vertical_datum",
+                                {VerticalDatum::egm96, VerticalDatum::ellipsoid, VerticalDatum::other});
+    info.vertical.name = fields.text("vertical_name");
+    info.vertical.assumed = fields.flag("vertical_assumed");
+    info.height_type = named(fields, "height_type", {HeightType::int16, HeightType::float32});
+    fields.integer("block_side", SceneInfo::kBlockSide, SceneInfo::kBlockSide);
+    if (problem.empty()) read_statistics(fields, info);
+    fields.each("sources", [&](JsonFields& source) { info.sources.push_back(source_from(source)); });
+    if (problem.empty()) read_files(fields, info);
+    if (!problem.empty()) return Error{ErrorKind::damaged, problem};
+    return info;
+}
+
+}  // namespace relevo::lod

@@ -36,17 +36,17 @@ inline constexpr std::int16_t kVoidInt16 = -32768;
 struct SourceInfo {
     std::string name;  ///< file name without its folder
     std::string sha256;
-    std::string crs;             ///< "EPSG:32611", or the CRS's own name where it has no code
-    std::string crs_wkt;         ///< the whole definition, WKT2
+    std::string crs;      ///< "EPSG:32611", or the CRS's own name where it has no code
+    std::string crs_wkt;  ///< the whole definition, WKT2
     int columns = 0;
     int rows = 0;
-    double step_x = 0;           ///< post spacing along the source's own axes, in step_unit
+    double step_x = 0;  ///< post spacing along the source's own axes, in step_unit
     double step_y = 0;
-    std::string step_unit;       ///< "degree", "metre", ...
-    std::string operation;       ///< the coordinate operation to WGS 84 that was used
+    std::string step_unit;                       ///< "degree", "metre", ...
+    std::string operation;                       ///< the coordinate operation to WGS 84 that was used
     std::optional<double> operation_accuracy_m;  ///< as stated by PROJ's database
-    std::string operation_note;  ///< a better operation that is not installed, else empty
-    std::string notes;           ///< anything else that was assumed or converted (units, scale, float64), for people
+    std::string operation_note;                  ///< a better operation that is not installed, else empty
+    std::string notes;  ///< anything else that was assumed or converted (units, scale, float64), for people
 };
 
 /// Scene surface against every valid post of the sources: bilinear scene height minus source height, metres.
@@ -80,7 +80,8 @@ struct SceneInfo {
     std::uint64_t valid_posts = 0;
     std::uint64_t void_posts = 0;
 
-    /// Largest difference between bilinear heights (measuring) and the triangles of the full mesh (drawing), metres.
+    /// Largest difference between bilinear heights (measuring) and the triangles of the full mesh (drawing),
+    /// metres.
     double bilinear_mesh_max_m = 0;
     ResamplingError resampling;
     std::string resampling_method;  ///< "none" (own posts kept), "cubic", "bilinear", "nearest", "average"
@@ -93,7 +94,20 @@ struct SceneInfo {
     std::uint64_t bytes() const;  ///< of all data files
 };
 
+/// "egm96", "ellipsoid", "other": the key in JSON.
+const char* to_string(VerticalDatum datum);
+/// "int16", "float32".
+const char* to_string(HeightType type);
+/// "geographic".
+const char* to_string(geo::FrameKind kind);
+/// "degree": the unit of the frame's steps.
+const char* step_unit(geo::FrameKind kind);
+
 nlohmann::json to_json(const SceneInfo& info);
+
+/// Every number is checked: what comes back makes sense as a whole, its files lie inside the scene, and its
+/// lists of blocks are in order of rows and columns. Fails with ErrorKind::damaged, or ErrorKind::input for a
+/// newer format.
 Result<SceneInfo> scene_info_from_json(const nlohmann::json& json);
 
 }  // namespace relevo::lod

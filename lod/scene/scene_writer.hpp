@@ -10,12 +10,12 @@
 
 namespace relevo::lod {
 
-/// Writes a scene beside its place and puts it there in one step when it is whole; destroyed before that, it leaves
-/// nothing behind. Only one writer a scene at a time.
+/// Writes a scene beside its place and puts it there in one step when it is whole; destroyed before that, it
+/// leaves nothing behind. Only one writer a scene at a time.
 class SceneWriter {
   public:
-    /// Fails where the place is taken (unless overwrite; only a scene is ever overwritten), locked by another writer,
-    /// or cannot be written.
+    /// Fails where the place is taken (unless overwrite; only a scene is ever overwritten), locked by another
+    /// writer, or cannot be written.
     static Result<SceneWriter> create(const std::filesystem::path& path, bool overwrite);
     SceneWriter(SceneWriter&&) noexcept;
     SceneWriter& operator=(SceneWriter&&) noexcept;
@@ -29,7 +29,8 @@ class SceneWriter {
 
     Result<void> write_undulations(const UndulationGrid& undulations);
 
-    /// Writes scene.json (block lists are filled in here), syncs everything to disk, and puts the scene in its place.
+    /// Writes scene.json (block lists are filled in here), syncs everything to disk, and puts the scene in
+    /// its place.
     Result<void> commit(SceneInfo info);
 
   private:

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "geo/result.hpp"
+
+namespace relevo::lod {
+
+/// Where the samples of a block lie on the earth (EPSG:4326): the centre of the first one, and the steps in
+/// degrees.
+struct GeoReference {
+    double west = 0;
+    double north = 0;
+    double step_x = 0;
+    double step_y = 0;
+};
+
+/// The size of a block file's image. Its samples lie band by band, each row by row.
+struct BlockShape {
+    int columns = 0;
+    int rows = 0;
+    int bands = 1;
+
+    std::size_t samples() const {
+        return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) *
+               static_cast<std::size_t>(bands);
+    }
+};
+
+/// The bytes of a GeoTIFF that holds the samples: one strip a band, compressed without loss, pixel-is-point.
+/// The same samples give the same bytes. T is std::int16_t (nodata -32768), std::uint16_t (none) or float
+/// (NaN).
+template <class T>
+Result<std::vector<std::byte>> encode_block(std::span<const T> samples, BlockShape shape,
+                                            const std::optional<GeoReference>& where);
+
+/// The samples in the bytes of a block file, which must have exactly that shape and type.
+/// \param name  for the message; fails with ErrorKind::damaged
+template <class T>
+Result<std::vector<T>> decode_block(std::span<const std::byte> bytes, BlockShape shape,
+                                    const std::string& name);
+
+/// Size of the image in the bytes of a block file of floats.
+Result<BlockShape> block_shape(std::span<const std::byte> bytes, const std::string& name);
+
+}  // namespace relevo::lod

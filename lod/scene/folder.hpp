@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "geo/result.hpp"
+
+namespace relevo::lod {
+
+/// What the last failed system call said, in words.
+std::string last_system_error();
+
+/// An open file or folder of the operating system.
+class Descriptor {
+  public:
+    Descriptor() = default;
+    explicit Descriptor(int number) : number_(number) {}
+    Descriptor(Descriptor&& other) noexcept;
+    Descriptor& operator=(Descriptor&& other) noexcept;
+    ~Descriptor();
+
+    explicit operator bool() const { return number_ >= 0; }
+    int number() const { return number_; }
+
+  private:
+    int number_ = -1;
+};
+
+/// An open folder. Files are reached through it and not through its name, so that what was opened stays what
+/// is read when another folder takes the name.
+class Folder {
+  public:
+    static Result<Folder> open(const std::filesystem::path& path);
+
+    const std::filesystem::path& path() const { return path_; }
+
+    /// A file's contents. `file` is relative to the folder. Fails with ErrorKind::damaged.
+    Result<std::vector<std::byte>> read(const std::string& file) const;
+
+    /// Writes a new file and syncs its contents to disk (its name needs sync()). Fails with
+    /// ErrorKind::internal.
+    Result<void> write(const std::string& file, std::span<const std::byte> bytes) const;
+
+    Result<void> make_folder(const std::string& name) const;
+
+    /// Syncs the names in a folder of this one to disk ("." is itself).
+    Result<void> sync(const std::string& name = ".") const;
+
+    /// Readers mark a folder as in use so that no writer deletes it under them; the mark goes with the last
+    /// of them.
+    void mark_in_use() const;
+    bool in_use() const;
+
+    /// Does the folder still have the name that it was opened by?
+    bool has_its_name() const;
+
+  private:
+    Folder(std::filesystem::path path, Descriptor descriptor);
+
+    std::filesystem::path path_;
+    Descriptor descriptor_;
+};
+
+}  // namespace relevo::lod

@@ -1,0 +1,88 @@
+#include "lod/scene/scene_files.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "lod/scene/block_grid.hpp"
+#include "lod/scene/sha256.hpp"
+
+namespace relevo::lod {
+namespace {
+
+constexpr const char* kChecksum = "sha256";
+
+/// Text that is not UTF-8 (a file name may be) is replaced where it is not: JSON knows nothing else.
+std::string dump(const nlohmann::json& json, int indent) {
+    return json.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// Of everything but itself, in one form whatever the spaces and the order of keys in the file.
+std::string checksum(nlohmann::json json) {
+    json.erase(kChecksum);
+    const std::string text = dump(json, -1);
+    return sha256_hex(std::as_bytes(std::span(text)));
+}
+
+}  // namespace
+
+std::string block_file_name(const char* folder, int block_column, int block_row) {
+    return fmt::format("{}/r{:04}-c{:04}.tif", folder, block_row, block_column);
+}
+
+GeoReference geo_reference(const geo::GridFrame& frame, int column, int row) {
+    return {frame.west + column * frame.step_x, frame.north - row * frame.step_y, frame.step_x, frame.step_y};
+}
+
+std::string scene_text(const SceneInfo& info) {
+    nlohmann::json json = to_json(info);
+    json[kChecksum] = checksum(json);
+    return dump(json, 1) + "\n";
+}
+
+Result<SceneInfo> scene_info_from_text(const std::string& text) {
+    const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+    if (json.is_discarded()) return Error{ErrorKind::damaged, "it is cut short or not JSON"};
+    Result<SceneInfo> info = scene_info_from_json(json);
+    // A newer format is named as such, whatever it does with checksums.
+    if (!info && info.error().kind == ErrorKind::input) return info;
+    const auto stated = json.is_object() ? json.find(kChecksum) : json.end();
+    if (stated == json.end() || *stated != checksum(json)) {
+        return Error{ErrorKind::damaged, "its checksum is wrong: it was changed after it was written"};
+    }
+    return info;
+}
+
+std::string mosaic_text(const SceneInfo& info) {
+    const bool whole = info.height_type == HeightType::int16;
+    const char* type = whole ? "Int16" : "Float32";
+    const geo::GridFrame& frame = info.frame;
+    std::string text = fmt::format(
+        "<VRTDataset rasterXSize=\"{}\" rasterYSize=\"{}\">\n"
+        "  <SRS dataAxisToSRSAxisMapping=\"2,1\">EPSG:4326</SRS>\n"
+        "  <GeoTransform>{}, {}, 0, {}, 0, {}</GeoTransform>\n"
+        "  <Metadata>\n    <MDI key=\"AREA_OR_POINT\">Point</MDI>\n  </Metadata>\n"
+        "  <VRTRasterBand dataType=\"{}\" band=\"1\" blockXSize=\"{}\" blockYSize=\"{}\">\n"
+        "    <NoDataValue>{}</NoDataValue>\n    <UnitType>m</UnitType>\n    "
+        "<ColorInterp>Gray</ColorInterp>\n",
+        frame.columns, frame.rows, frame.west - frame.step_x / 2, frame.step_x,
+        frame.north + frame.step_y / 2, -frame.step_y, type, SceneInfo::kBlockSide, SceneInfo::kBlockSide,
+        whole ? "-32768" : "nan");
+    const BlockGrid grid = BlockGrid::of_heights(frame.columns, frame.rows);
+    for (const BlockInfo& block : info.heights) {
+        const BlockGrid::Box box = grid.box(block.column, block.row);
+        text += fmt::format(
+            "    <SimpleSource>\n"
+            "      <SourceFilename relativeToVRT=\"1\">{0}</SourceFilename>\n"
+            "      <SourceBand>1</SourceBand>\n"
+            "      <SourceProperties RasterXSize=\"{1}\" RasterYSize=\"{2}\" DataType=\"{3}\" "
+            "BlockXSize=\"{1}\" "
+            "BlockYSize=\"{2}\"/>\n"
+            "      <SrcRect xOff=\"0\" yOff=\"0\" xSize=\"{1}\" ySize=\"{2}\"/>\n"
+            "      <DstRect xOff=\"{4}\" yOff=\"{5}\" xSize=\"{1}\" ySize=\"{2}\"/>\n"
+            "    </SimpleSource>\n",
+            block.file, box.columns, box.rows, type, box.column, box.row);
+    }
+    return text + "  </VRTRasterBand>\n</VRTDataset>\n";
+}
+
+}  // namespace relevo::lod
