@@ -13,7 +13,9 @@ struct Degrees {
     constexpr explicit Degrees(double degrees) : value(degrees) {}
 
     constexpr double radians() const { return value * (std::numbers::pi / 180); }
-    static constexpr Degrees from_radians(double radians) { return Degrees{radians * (180 / std::numbers::pi)}; }
+    static constexpr Degrees from_radians(double radians) {
+        return Degrees{radians * (180 / std::numbers::pi)};
+    }
 
     friend constexpr auto operator<=>(Degrees, Degrees) = default;
     friend constexpr Degrees operator+(Degrees a, Degrees b) { return Degrees{a.value + b.value}; }

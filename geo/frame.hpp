@@ -9,8 +9,8 @@ enum class FrameKind {
     geographic,  ///< columns along longitude, rows along latitude; steps in degrees
 };
 
-/// A place in a grid: column to the east, row to the south, in posts; (0, 0) is the north-west post. Fractions lie
-/// between posts, values outside [0, columns - 1] x [0, rows - 1] outside the data.
+/// A place in a grid: column to the east, row to the south, in posts; (0, 0) is the north-west post.
+/// Fractions lie between posts, values outside [0, columns - 1] x [0, rows - 1] outside the data.
 struct GridPosition {
     double column = 0;
     double row = 0;
@@ -29,9 +29,9 @@ struct GridFrame {
     /// Latitude and longitude of a place in the grid (also outside the data). lon is continuous: not wrapped.
     LatLon lat_lon(GridPosition place) const;
 
-    /// The inverse of lat_lon, whichever turn lon is given in: the column is the one nearest to the middle of the
-    /// data, so that a scene across the antimeridian is found from both sides. Round trip: 1e-9 posts for steps of
-    /// 1" and more.
+    /// The inverse of lat_lon, whichever turn lon is given in: the column is the one nearest to the middle of
+    /// the data, so that a scene across the antimeridian is found from both sides. Round trip: 1e-9 posts for
+    /// steps of 1" and more.
     GridPosition grid_position(LatLon place) const;
 
     /// ECEF position of a place in the grid at height h, by GeographicLib: the exact path. The fast one is

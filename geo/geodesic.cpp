@@ -29,15 +29,20 @@ LatLon geodesic_destination(LatLon from, Degrees azimuth, double length_m) {
 
 struct GeodesicPath::Line {
     GeographicLib::GeodesicLine line;
+    double length_m;
 };
 
-GeodesicPath::GeodesicPath(LatLon from, LatLon to)
-    : line_(std::make_shared<const Line>(Line{Geodesic::WGS84().InverseLine(
-          from.lat.value, from.lon.value, to.lat.value, to.lon.value,
-          Geodesic::LATITUDE | Geodesic::LONGITUDE | Geodesic::AZIMUTH | Geodesic::DISTANCE_IN)})) {}
+GeodesicPath::GeodesicPath(LatLon from, LatLon to) {
+    // The length is geodesic()'s own, to the last bit: the line's would be the same rounded otherwise.
+    line_ = std::make_shared<const Line>(
+        Line{Geodesic::WGS84().InverseLine(
+                 from.lat.value, from.lon.value, to.lat.value, to.lon.value,
+                 Geodesic::LATITUDE | Geodesic::LONGITUDE | Geodesic::AZIMUTH | Geodesic::DISTANCE_IN),
+             geodesic(from, to).length_m});
+}
 
 double GeodesicPath::length_m() const {
-    return line_->line.Distance();
+    return line_->length_m;
 }
 
 LatLon GeodesicPath::at(double distance_m) const {

@@ -18,16 +18,16 @@ GeodesicLine geodesic(LatLon from, LatLon to);
 /// The place that a geodesic reaches after length_m metres, lon in [-180, 180].
 LatLon geodesic_destination(LatLon from, Degrees azimuth, double length_m);
 
-/// Points along the geodesic between two places; faster than geodesic_destination for many of them. Copies share the
-/// same line.
+/// Points along the geodesic between two places; faster than geodesic_destination for many of them. Copies
+/// share the same line.
 class GeodesicPath {
   public:
     GeodesicPath(LatLon from, LatLon to);
 
     double length_m() const;
 
-    /// The place after distance_m metres. lon is continuous from the start's: a path across the antimeridian runs on
-    /// past 180.
+    /// The place after distance_m metres. lon is continuous from the start's: a path across the antimeridian
+    /// runs on past 180.
     LatLon at(double distance_m) const;
 
     /// The direction of travel there, clockwise from north, in [0, 360).
@@ -38,8 +38,8 @@ class GeodesicPath {
     std::shared_ptr<const Line> line_;
 };
 
-/// Area and perimeter of a polygon whose sides are geodesics. Positive whatever its direction; the smaller of the two
-/// parts of the earth.
+/// Area and perimeter of a polygon whose sides are geodesics. Positive whatever its direction; the smaller of
+/// the two parts of the earth.
 struct GeodesicArea {
     double area_m2 = 0;
     double perimeter_m = 0;

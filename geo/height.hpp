@@ -22,7 +22,11 @@ struct Undulation {
     friend constexpr auto operator<=>(Undulation, Undulation) = default;
 };
 
-constexpr EllipsoidalHeight operator+(OrthometricHeight H, Undulation N) { return {H.m + N.m}; }
-constexpr OrthometricHeight operator-(EllipsoidalHeight h, Undulation N) { return {h.m - N.m}; }
+constexpr EllipsoidalHeight operator+(OrthometricHeight H, Undulation N) {
+    return {H.m + N.m};
+}
+constexpr OrthometricHeight operator-(EllipsoidalHeight h, Undulation N) {
+    return {h.m - N.m};
+}
 
 }  // namespace relevo::geo

@@ -8,7 +8,8 @@
 
 namespace relevo::geo {
 
-/// A place on the WGS 84 ellipsoid. lat in [-90, 90]; lon any finite angle (continuous across the antimeridian).
+/// A place on the WGS 84 ellipsoid. lat in [-90, 90]; lon any finite angle (continuous across the
+/// antimeridian).
 struct LatLon {
     Degrees lat;
     Degrees lon;
@@ -37,8 +38,8 @@ struct Enu {
 /// Geodetic to ECEF. Error under 10 nm up to 10 000 km of height.
 Ecef to_ecef(const Geodetic& position);
 
-/// ECEF to geodetic, lon in [-180, 180]. to_ecef of the result gives the position back to 10 nm up to 10 000 km of
-/// height.
+/// ECEF to geodetic, lon in [-180, 180]. to_ecef of the result gives the position back to 10 nm up to 10 000
+/// km of height.
 Geodetic to_geodetic(const Ecef& position);
 
 /// The local east-north-up frame at a position.

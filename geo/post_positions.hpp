@@ -8,8 +8,9 @@
 
 namespace relevo::geo {
 
-/// ECEF positions of a grid's posts from tables for rows and columns: two products a coordinate and no trigonometry.
-/// Agrees with GridFrame::ecef to 10 nm (rounding of the tables and of one product). The tables cover the padded grid.
+/// ECEF positions of a grid's posts from tables for rows and columns: two products a coordinate and no
+/// trigonometry. Agrees with GridFrame::ecef to 10 nm (rounding of the tables and of one product). The tables
+/// cover the padded grid.
 class PostPositions {
   public:
     explicit PostPositions(const GridFrame& frame);

@@ -7,7 +7,8 @@
 
 namespace relevo {
 
-/// What went wrong, as far as a caller may want to tell it apart. The command line turns it into an exit status.
+/// What went wrong, as far as a caller may want to tell it apart. The command line turns it into an exit
+/// status.
 enum class ErrorKind {
     usage,     ///< the request itself makes no sense (exit status 2)
     input,     ///< an input cannot be used as it is (exit status 3)

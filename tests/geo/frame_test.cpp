@@ -1,0 +1,93 @@
+#include "geo/frame.hpp"
+
+#include <array>
+#include <cmath>
+#include <string>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "geo/geodesic.hpp"
+
+namespace relevo::geo {
+namespace {
+
+constexpr double kArcSecond = 1.0 / 3600;
+
+GridFrame frame(double west, double north, double step, int columns, int rows) {
+    return {FrameKind::geographic, west, north, step, step, columns, rows};
+}
+
+TEST(GridFrame, PostsRoundTripTo1e9OfAPost) {
+    const std::array frames{frame(-106, 38, kArcSecond, 3601, 3601),
+                            frame(179, -16, 3 * kArcSecond, 2401, 1201), frame(-180, 90, 0.25, 1441, 721),
+                            frame(-0.5, 0.5, kArcSecond, 3601, 3601), frame(-180, 10, 0.1, 3600, 200)};
+    for (const GridFrame& f : frames) {
+        for (int i = 0; i <= 20; ++i) {
+            const GridPosition place{(f.columns - 1) * i / 20.0, (f.rows - 1) * (20 - i) / 20.0};
+            for (const double turn : {0.0, -360.0, 360.0}) {
+                if (f.columns * f.step_x > 359 && turn != 0) continue;  // the closing column is a place too
+                LatLon there = f.lat_lon(place);
+                there.lon = there.lon + Degrees{turn};
+                const GridPosition back = f.grid_position(there);
+                EXPECT_NEAR(back.column, place.column, 1e-9);
+                EXPECT_NEAR(back.row, place.row, 1e-9);
+            }
+        }
+    }
+}
+
+TEST(GridFrame, IsContinuousAcrossTheAntimeridian) {
+    const GridFrame f = frame(179, -16, 0.01, 201, 101);
+    EXPECT_NEAR(f.lat_lon({150, 0}).lon.value, 180.5, 1e-12);
+    const auto column = [&](double lon) { return f.grid_position({Degrees{-16.5}, Degrees{lon}}).column; };
+    EXPECT_NEAR(column(180), 100, 1e-9);
+    EXPECT_NEAR(column(-180), 100, 1e-9);
+    EXPECT_NEAR(column(-179.5), 150, 1e-9);
+    EXPECT_NEAR(column(180.5), 150, 1e-9);
+    EXPECT_NEAR(column(std::nextafter(180, 0)) - column(std::nextafter(-180, 0)), 0, 1e-9);
+    EXPECT_NEAR(column(178.5), -50, 1e-9);   // west of the data
+    EXPECT_NEAR(column(-178.5), 250, 1e-9);  // east of it
+}
+
+TEST(GridFrame, WholeEarthHasBothItsEdges) {
+    const GridFrame f = frame(-180, 90, 0.5, 721, 361);
+    EXPECT_EQ(f.grid_position({Degrees{0}, Degrees{-180}}).column, 0);
+    EXPECT_EQ(f.grid_position({Degrees{0}, Degrees{180}}).column, 720);
+}
+
+TEST(GridFrame, PolesAreLatitudesInSpiteOfRounding) {
+    const GridFrame f = frame(-180, 90, 1.0 / 3, 1081, 541);
+    EXPECT_EQ(f.lat_lon({0, 0}).lat.value, 90);
+    EXPECT_GE(f.lat_lon({0, 540}).lat.value, -90);
+    EXPECT_EQ(f.lat_lon({0, 600}).lat.value, -90);  // padding
+    const Ecef a = f.ecef({0, 0}, EllipsoidalHeight{100});
+    const Ecef b = f.ecef({333, 0}, EllipsoidalHeight{100});
+    EXPECT_EQ(a.m, b.m);
+}
+
+TEST(GridFrame, SpacingAgreesWithGeodesics) {
+    // A degree along a meridian, and along a parallel: the geodesic over a step of 1" differs from the
+    // parallel by 1e-9.
+    const GridFrame f = frame(10, 80, kArcSecond, 100, 575000);
+    for (const double row : {0.0, 36000.0, 287998.0, 500000.0}) {
+        const auto spacing = f.spacing(row);
+        const double north = geodesic(f.lat_lon({0, row - 0.5}), f.lat_lon({0, row + 0.5})).length_m;
+        const double east = geodesic(f.lat_lon({0, row}), f.lat_lon({1, row})).length_m;
+        EXPECT_NEAR(spacing.north_m / north, 1, 1e-8);
+        EXPECT_NEAR(spacing.east_m / east, 1, 1e-8);
+    }
+    EXPECT_NEAR(frame(0, 90, 1, 3, 3).spacing(0).east_m, 0, 1e-10);
+}
+
+TEST(GridFrame, PadsToTheNextPowerOfTwoPlusOne) {
+    EXPECT_EQ(frame(0, 0, 1, 1, 1).padded_side(), 3);
+    EXPECT_EQ(frame(0, 0, 1, 3, 3).padded_side(), 3);
+    EXPECT_EQ(frame(0, 0, 1, 4, 3).padded_side(), 5);
+    EXPECT_EQ(frame(0, 0, 1, 2, 1025).padded_side(), 1025);
+    EXPECT_EQ(frame(0, 0, 1, 1026, 2).padded_side(), 2049);
+    EXPECT_EQ(frame(0, 0, 1, 3601, 3601).levels(), 12);
+}
+
+}  // namespace
+}  // namespace relevo::geo
