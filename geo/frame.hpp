@@ -27,6 +27,7 @@ struct GridFrame {
     int rows = 0;       ///< posts with data, north to south
 
     /// Latitude and longitude of a place in the grid (also outside the data). lon is continuous: not wrapped.
+    /// Beyond a pole lat stays at the pole.
     LatLon lat_lon(GridPosition place) const;
 
     /// The inverse of lat_lon, whichever turn lon is given in: the column is the one nearest to the middle of
@@ -35,7 +36,7 @@ struct GridFrame {
     GridPosition grid_position(LatLon place) const;
 
     /// ECEF position of a place in the grid at height h, by GeographicLib: the exact path. The fast one is
-    /// PostPositions (post_positions.hpp), which agrees to 10 nm.
+    /// PostPositions (post_positions.hpp), which agrees to 4 nm.
     Ecef ecef(GridPosition place, EllipsoidalHeight h) const;
 
     /// Distance in metres between neighbouring columns and between neighbouring rows at a row of the grid.

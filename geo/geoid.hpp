@@ -13,8 +13,10 @@ namespace relevo::geo {
 ///
 /// The model's nodes are joined by an interpolating bicubic spline (C2; Unser 1999, "Splines: a perfect fit
 /// for signal and image processing"): periodic in longitude, and continued across a pole along the opposite
-/// meridian, so that no place on earth is special. At a node it is the node. Linear interpolation between the
-/// nodes of EGM96 15' is wrong by up to 1.15 m (GeographicLib's figures), cubic by 0.17 m.
+/// meridian, so that no place on earth is special. At a node it is the node to 1e-12 m. Between the nodes of
+/// EGM96 15' it is within 0.03 m of the model (measured against the trigonometric polynomial through the
+/// nodes, which the model is: 0.0265 m at most and 1.6 mm RMS in the middle of all cells, where linear
+/// interpolation is wrong by up to 1.152 m, 56 mm RMS).
 class Geoid {
   public:
     /// EGM96 on its 15' grid, from PROJ's data (egm96_15.gtx, Debian package proj-data).

@@ -35,11 +35,12 @@ struct Enu {
     glm::dvec3 m{0};
 };
 
-/// Geodetic to ECEF. Error under 10 nm up to 10 000 km of height.
+/// Geodetic to ECEF. Error under 10 nm from -11 km to 10 000 km of height (measured against long double:
+/// 3.8 nm).
 Ecef to_ecef(const Geodetic& position);
 
-/// ECEF to geodetic, lon in [-180, 180]. to_ecef of the result gives the position back to 10 nm up to 10 000
-/// km of height.
+/// ECEF to geodetic, lon in [-180, 180]. to_ecef of the result gives the position back to 10 nm from -11 km
+/// to 10 000 km of height (measured: 5.6 nm).
 Geodetic to_geodetic(const Ecef& position);
 
 /// The local east-north-up frame at a position.
