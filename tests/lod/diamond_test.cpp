@@ -17,7 +17,9 @@ TEST_P(DiamondTest, EveryPostButTheCornersHasOneLevel) {
     std::multiset<std::pair<int, int>> seen;
     for (int level = 0; level < 2 * n; ++level) {
         for (int row = 0; row <= side; ++row) {
-            for_each_vertex_in_row(n, level, row, [&](const GridPoint& v) { seen.insert({v.column, v.row}); });
+            for_each_vertex_in_row(n, level, row, [&](const GridPoint& v) {
+                seen.insert({v.column, v.row});
+            });
         }
     }
     EXPECT_EQ(seen.size(), static_cast<std::size_t>((side + 1) * (side + 1) - 4));
@@ -34,7 +36,8 @@ TEST_P(DiamondTest, ChildrenAndApexesAreInverse) {
     for (int level = 0; level < 2 * n; ++level) {
         for (int row = 0; row <= side; ++row) {
             for_each_vertex_in_row(n, level, row, [&](const GridPoint& v) {
-                for (const GridPoint& c : children(v, level, n)) from_children.insert({v.column, v.row, c.column, c.row});
+                for (const GridPoint& c : children(v, level, n))
+                    from_children.insert({v.column, v.row, c.column, c.row});
                 if (level == 0) return;
                 const Diamond d = diamond(v, level, n);
                 EXPECT_EQ(midpoint(d.left, d.right), v);
@@ -47,7 +50,8 @@ TEST_P(DiamondTest, ChildrenAndApexesAreInverse) {
 
 INSTANTIATE_TEST_SUITE_P(Sizes, DiamondTest, testing::Values(1, 2, 3, 5));
 
-// Bisection from the four base triangles down to the last level must end in exactly the triangles of the cells.
+// Bisection from the four base triangles down to the last level must end in exactly the triangles of the
+// cells.
 TEST(CellTriangles, AreTheLastLevelOfTheBisection) {
     constexpr int n = 3;
     std::set<std::array<int, 6>> bisected;

@@ -31,16 +31,17 @@ TEST(MetricCode, RoundsUpByLittleAndSorts) {
     EXPECT_EQ(static_cast<double>(decode(encode_up(256))), 256) << "what has a code keeps its value";
 }
 
-/// The definitions word by word, slowly: ECEF by GridFrame's exact path, every post tried against both triangles, and
-/// nesting over explicit sets of descendants.
+/// The definitions word by word, slowly: ECEF by GridFrame's exact path, every post tried against both
+/// triangles, and nesting over explicit sets of descendants.
 class BruteForce {
   public:
     BruteForce(const geo::GridFrame& frame, const Raster<float>& heights)
         : frame_(frame), n_(frame.levels()), heights_(heights), mesh_(mesh_heights(frame, heights)) {}
 
     glm::dvec3 position(const GridPoint& p) const {
-        return frame_.ecef({static_cast<double>(p.column), static_cast<double>(p.row)},
-                           {static_cast<double>(mesh_.at(p.column, p.row))})
+        return frame_
+            .ecef({static_cast<double>(p.column), static_cast<double>(p.row)},
+                  {static_cast<double>(mesh_.at(p.column, p.row))})
             .m;
     }
     bool is_valid(const GridPoint& p) const {
@@ -73,7 +74,8 @@ class BruteForce {
                     const auto w = weights(t, x);
                     if (w[0] < -1e-12 || w[1] < -1e-12 || w[2] < -1e-12 || !is_valid(x)) continue;
                     result.any = true;
-                    const glm::dvec3 drawn = w[0] * position(t[0]) + w[1] * position(t[1]) + w[2] * position(t[2]);
+                    const glm::dvec3 drawn =
+                        w[0] * position(t[0]) + w[1] * position(t[1]) + w[2] * position(t[2]);
                     result.bounded = std::max(result.bounded, glm::distance(drawn, position(x)));
                     result.reach = std::max(result.reach, glm::distance(here, position(x)));
                 }
@@ -114,13 +116,15 @@ void expect_metrics_as_defined(const geo::GridFrame& frame, const Raster<float>&
                     truth.incremental = std::max(truth.incremental, below.incremental);
                     truth.any = truth.any || below.any;
                     if (below.any) {
-                        const double child_radius = static_cast<double>(decode(metrics.radius.at(c.column, c.row)));
+                        const double child_radius =
+                            static_cast<double>(decode(metrics.radius.at(c.column, c.row)));
                         EXPECT_GE(radius, glm::distance(brute.position(v), brute.position(c)) + child_radius);
                     }
                 }
                 nested[{v.column, v.row}] = truth;
                 const double bounded = static_cast<double>(decode(metrics.bounded.at(v.column, v.row)));
-                const double incremental = static_cast<double>(decode(metrics.incremental.at(v.column, v.row)));
+                const double incremental =
+                    static_cast<double>(decode(metrics.incremental.at(v.column, v.row)));
                 EXPECT_EQ(radius > 0, truth.any) << v.column << ' ' << v.row;
                 if (!truth.any) return;
                 EXPECT_GE(bounded, truth.bounded - 1e-8) << v.column << ' ' << v.row;
@@ -148,12 +152,13 @@ TEST(Metrics, AreTheirDefinitionWithPadding) {
 TEST(Metrics, AreTheirDefinitionWithVoids) {
     const auto frame = test::geographic_frame(33, 25);
     expect_metrics_as_defined(frame, test::make_heights(frame, [](int column, int row) {
-        const bool hole = std::hypot(column - 10, row - 12) < 6 || (column > 24 && row < 9) || column == row;
-        return hole ? std::nan("") : test::mountains(column, row);
-    }));
+                                  const bool hole = std::hypot(column - 10, row - 12) < 6 ||
+                                                    (column > 24 && row < 9) || column == row;
+                                  return hole ? std::nan("") : test::mountains(column, row);
+                              }));
     expect_metrics_as_defined(frame, test::make_heights(frame, [](int column, int row) {
-        return column == 7 && row == 11 ? 500.0 : std::nan("");
-    }));
+                                  return column == 7 && row == 11 ? 500.0 : std::nan("");
+                              }));
 }
 
 TEST(Metrics, AreTheirDefinitionOnCoarsePostsAcrossTheEquator) {
@@ -200,7 +205,8 @@ TEST(LevelBounds, HoldForEveryDiamond) {
                 for (int row = 0; row < frame.padded_side(); ++row) {
                     for_each_vertex_in_row(frame.levels(), level, row, [&](const GridPoint& v) {
                         sag = std::max(sag, static_cast<double>(decode(metrics.bounded.at(v.column, v.row))));
-                        radius = std::max(radius, static_cast<double>(decode(metrics.radius.at(v.column, v.row))));
+                        radius =
+                            std::max(radius, static_cast<double>(decode(metrics.radius.at(v.column, v.row))));
                     });
                 }
                 EXPECT_GE(bound.sag_m * kCodeStep, sag) << "level " << level;

@@ -56,7 +56,8 @@ inline double mountains(int column, int row) {
     double H = 1500;
     double amplitude = 600;
     for (double length = 100; length > 2; length /= 2.1, amplitude /= 2) {
-        H += amplitude * std::sin(column / length + 1.7 * std::sin(row / length)) * std::cos(row / (0.8 * length));
+        H += amplitude * std::sin(column / length + 1.7 * std::sin(row / length)) *
+             std::cos(row / (0.8 * length));
     }
     return H + 3 * noise(column, row);
 }

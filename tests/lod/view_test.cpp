@@ -67,7 +67,8 @@ TEST(View, ProjectionAgreesWithPixel) {
     }
 }
 
-// Reversed depth: 1 at the near plane, 0 at infinity, and neighbours stay apart (DESIGN: 2 cm at 10 km, 10 cm at 100 km).
+// Reversed depth: 1 at the near plane, 0 at infinity, and neighbours stay apart (DESIGN: 2 cm at 10 km, 10 cm
+// at 100 km).
 TEST(View, ReversedDepthKeepsNeighboursApart) {
     const glm::mat4 projection = lod::View(camera(0, 0)).projection();
     const auto depth = [&](double z) {
@@ -80,7 +81,8 @@ TEST(View, ReversedDepthKeepsNeighboursApart) {
     EXPECT_GT(depth(1e9), 0);
 }
 
-// Definition: an error delta at distance D moves a point of the picture by at most lambda delta / (D - kappa delta).
+// Definition: an error delta at distance D moves a point of the picture by at most lambda delta / (D - kappa
+// delta).
 TEST(View, ErrorScaleBoundsEveryDisplacementInThePicture) {
     for (const double fov : {1.0, 60.0, 150.0}) {
         lod::Camera wide = camera(0, 0);
