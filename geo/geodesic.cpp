@@ -45,22 +45,24 @@ double GeodesicPath::length_m() const {
     return line_->length_m;
 }
 
-LatLon GeodesicPath::at(double distance_m) const {
+GeodesicPath::Point GeodesicPath::point(double distance_m) const {
     double lat = 0;
     double lon = 0;
+    double azimuth = 0;
     double unused = 0;
-    line_->line.GenPosition(false, distance_m,
-                            Geodesic::LATITUDE | Geodesic::LONGITUDE | Geodesic::LONG_UNROLL, lat, lon,
-                            unused, unused, unused, unused, unused, unused);
-    return {Degrees{lat}, Degrees{lon}};
+    line_->line.GenPosition(
+        false, distance_m,
+        Geodesic::LATITUDE | Geodesic::LONGITUDE | Geodesic::LONG_UNROLL | Geodesic::AZIMUTH, lat, lon,
+        azimuth, unused, unused, unused, unused, unused);
+    return {{Degrees{lat}, Degrees{lon}}, wrapped_360(Degrees{azimuth})};
+}
+
+LatLon GeodesicPath::at(double distance_m) const {
+    return point(distance_m).place;
 }
 
 Degrees GeodesicPath::azimuth(double distance_m) const {
-    double azimuth = 0;
-    double unused = 0;
-    line_->line.GenPosition(false, distance_m, Geodesic::AZIMUTH, unused, unused, azimuth, unused, unused,
-                            unused, unused, unused);
-    return wrapped_360(Degrees{azimuth});
+    return point(distance_m).azimuth;
 }
 
 GeodesicArea geodesic_area(std::span<const LatLon> polygon) {

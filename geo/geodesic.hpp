@@ -33,6 +33,13 @@ class GeodesicPath {
     /// The direction of travel there, clockwise from north, in [0, 360).
     Degrees azimuth(double distance_m) const;
 
+    /// Both at once, for little more than one.
+    struct Point {
+        LatLon place;
+        Degrees azimuth;
+    };
+    Point point(double distance_m) const;
+
   private:
     struct Line;
     std::shared_ptr<const Line> line_;

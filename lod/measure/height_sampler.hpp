@@ -9,8 +9,38 @@
 
 namespace relevo::lod {
 
-/// The one way to read a height between posts, for every measuring tool: bilinear in grid coordinates over the full
-/// data, and exactly the post within 1e-6 of one. A cell with a void corner is void. Keeps the blocks read last.
+/// The surface between four neighbouring posts: bilinear in grid coordinates, H in metres.
+struct BilinearCell {
+    int column = 0;  ///< of its north-west post
+    int row = 0;
+    double nw = 0;
+    double ne = 0;
+    double sw = 0;
+    double se = 0;
+
+    double height(geo::GridPosition place) const {
+        const double u = place.column - column;
+        const double v = place.row - row;
+        const double north = nw + u * (ne - nw);
+        const double south = sw + u * (se - sw);
+        return north + v * (south - north);
+    }
+
+    /// Rise of the surface a column to the east and a row to the south.
+    struct Slope {
+        double per_column = 0;
+        double per_row = 0;
+    };
+    Slope slope(geo::GridPosition place) const {
+        const double u = place.column - column;
+        const double v = place.row - row;
+        return {(ne - nw) + v * ((se - sw) - (ne - nw)), (sw - nw) + u * ((se - ne) - (sw - nw))};
+    }
+};
+
+/// The one way to read a height between posts, for every measuring tool: bilinear in grid coordinates over
+/// the full data, and exactly the post within 1e-6 of one. A cell with a void corner is void; so is an edge
+/// with a void end. Keeps the blocks read last.
 class HeightSampler {
   public:
     static constexpr double kPostTolerance = 1e-6;
@@ -26,7 +56,11 @@ class HeightSampler {
     /// H at a place, metres; nothing for a void or outside.
     Result<std::optional<double>> height(geo::GridPosition place);
 
-    /// Is the place within the data's rectangle?
+    /// The surface around a place; nothing for a void or outside. Within 1e-6 of a row or a column it is that
+    /// edge's surface (both its sides have the same height), within 1e-6 of a post it is the post's.
+    Result<std::optional<BilinearCell>> cell(geo::GridPosition place);
+
+    /// Is the place within the data's rectangle (or within 1e-6 of it)?
     bool inside(geo::GridPosition place) const;
 
   private:
@@ -36,6 +70,9 @@ class HeightSampler {
         Raster<float> heights;
         std::list<std::uint64_t>::iterator age;
     };
+
+    /// The block of a post, read if need be.
+    Result<const Raster<float>*> block(int block_column, int block_row);
 
     const Scene& scene_;
     std::unordered_map<std::uint64_t, CachedBlock> blocks_;

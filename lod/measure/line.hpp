@@ -15,15 +15,21 @@ struct ProfileSample {
     std::optional<double> H_m;  ///< nothing for a void or outside
 };
 
-/// Heights along the geodesic between two places: at both ends, at every crossing of a row, a column of posts, and at
-/// the extremum inside a cell where there is one. Between neighbouring samples the bilinear surface has no peak or dip.
+/// Heights along the geodesic between two places: at both ends, at every crossing of a row or a column of
+/// posts, and at the extremum inside a cell where there is one. Between neighbouring samples with a height
+/// the bilinear surface has no peak or dip. A gap (void or outside) has a sample without height at either
+/// end, at the distances of the samples with heights that it lies between.
 Result<std::vector<ProfileSample>> profile(HeightSampler& sampler, geo::LatLon from, geo::LatLon to);
 
-/// A geodesic line and what it does over the ground. Ground figures are absent where the line leaves the data.
+/// A geodesic line and what it does over the ground. Ground figures are absent where the line leaves the data
+/// or crosses a void.
 struct LineMeasurement {
     geo::GeodesicLine geodesic;
-    std::optional<double> surface_m;  ///< length over the ground, at its height
-    std::optional<double> climb_m;    ///< sum of all rises
+    /// Length of the bilinear surface along the line in space, at its height above the ellipsoid: each metre
+    /// of the geodesic is 1 + h/R long (R: the ellipsoid's radius in the line's direction), and rises by dh.
+    /// Relative error of the integration under 1e-6.
+    std::optional<double> surface_m;
+    std::optional<double> climb_m;    ///< sum of all rises of H
     std::optional<double> descent_m;  ///< sum of all falls, positive
 };
 Result<LineMeasurement> measure_line(HeightSampler& sampler, geo::LatLon from, geo::LatLon to);

@@ -1,1 +1,44 @@
-// written next
+#include "lod/measure/point.hpp"
+
+#include <algorithm>
+
+namespace relevo::lod {
+namespace {
+
+std::optional<geo::Undulation> undulation(VerticalDatum datum, const geo::Geoid* geoid, geo::LatLon place) {
+    switch (datum) {
+        case VerticalDatum::ellipsoid:
+            return geo::Undulation{0};
+        case VerticalDatum::egm96:
+            if (geoid != nullptr) return geoid->undulation(place);
+            break;
+        case VerticalDatum::other:
+            break;
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<PointMeasurement> measure_point(HeightSampler& sampler, const geo::Geoid* geoid, geo::LatLon place) {
+    const SceneInfo& info = sampler.scene().info();
+    const geo::GridPosition position = info.frame.grid_position(place);
+    PointMeasurement point;
+    point.place = place;
+    point.N = undulation(info.vertical.datum, geoid, place);
+    const auto spacing =
+        info.frame.spacing(std::clamp(position.row, 0.0, static_cast<double>(info.frame.rows - 1)));
+    point.resolution_m = std::max(spacing.east_m, spacing.north_m);
+    if (!sampler.inside(position)) return point;
+
+    const auto H = sampler.height(position);
+    if (!H) return H.error();
+    point.kind = *H ? PointClass::land : PointClass::none;
+    if (*H) {
+        point.H = geo::OrthometricHeight{**H};
+        if (point.N) point.h = *point.H + *point.N;
+    }
+    return point;
+}
+
+}  // namespace relevo::lod

@@ -15,10 +15,10 @@ enum class PointClass { land, none, outside };  // none: void
 struct PointMeasurement {
     geo::LatLon place;
     PointClass kind = PointClass::outside;
-    std::optional<geo::OrthometricHeight> H;
-    std::optional<geo::EllipsoidalHeight> h;
-    std::optional<geo::Undulation> N;
-    double resolution_m = 0;  ///< post spacing there, the larger of both axes
+    std::optional<geo::OrthometricHeight> H;  ///< above the scene's vertical datum
+    std::optional<geo::EllipsoidalHeight> h;  ///< H + N
+    std::optional<geo::Undulation> N;  ///< of the datum's surface: 0 where H is above the ellipsoid itself
+    double resolution_m = 0;           ///< post spacing there, the larger of both axes
 };
 
 /// Reads a place from the full data: bilinear between posts, the post itself within 1e-6 of one.
