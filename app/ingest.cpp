@@ -1,1 +1,242 @@
-// written next
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <signal.h>
+
+#include "app/command.hpp"
+#include "ingest/import.hpp"
+
+namespace relevo::app {
+namespace {
+
+struct Settings {
+    Common common;
+    std::vector<std::string> inputs;
+    std::string scene;
+    bool overwrite = false;
+    bool dry_run = false;
+    std::optional<std::string> crs;
+    std::vector<double> bounds;
+    std::optional<double> nodata;
+    std::optional<double> height_scale;
+    double height_offset = 0;
+    std::string vertical;
+    std::string resampling;
+    std::vector<double> resolution;
+    std::vector<double> crop;
+    std::uint64_t max_posts = ingest::ImportOptions::kMostPosts;
+};
+
+volatile sig_atomic_t stop_asked = 0;
+
+/// Ctrl-C and SIGTERM end the import at its next step, so that it can take away what it has written so far.
+class StopOnSignal {
+  public:
+    StopOnSignal() {
+        struct sigaction action {};
+        action.sa_handler = [](int) { stop_asked = 1; };
+        sigemptyset(&action.sa_mask);
+        sigaction(SIGINT, &action, &old_interrupt_);
+        sigaction(SIGTERM, &action, &old_terminate_);
+    }
+    ~StopOnSignal() {
+        sigaction(SIGINT, &old_interrupt_, nullptr);
+        sigaction(SIGTERM, &old_terminate_, nullptr);
+    }
+    StopOnSignal(const StopOnSignal&) = delete;
+    StopOnSignal& operator=(const StopOnSignal&) = delete;
+
+  private:
+    struct sigaction old_interrupt_ {};
+    struct sigaction old_terminate_ {};
+};
+
+std::optional<ingest::Bounds> bounds_of(const std::vector<double>& numbers) {
+    if (numbers.size() != 4) return {};
+    return ingest::Bounds{numbers[0], numbers[1], numbers[2], numbers[3]};
+}
+
+ingest::ImportOptions options_of(const Settings& s) {
+    ingest::ImportOptions options;
+    options.source.input = s.inputs.front();
+    options.source.crs = s.crs;
+    options.source.bounds = bounds_of(s.bounds);
+    options.source.nodata = s.nodata;
+    options.source.height_scale = s.height_scale;
+    options.source.height_offset = s.height_offset;
+    if (s.vertical == "egm96") options.source.vertical = lod::VerticalDatum::egm96;
+    if (s.vertical == "ellipsoid") options.source.vertical = lod::VerticalDatum::ellipsoid;
+    options.target.crop = bounds_of(s.crop);
+    if (!s.resolution.empty()) options.target.resolution = {s.resolution.front(), s.resolution.back()};
+    options.resampling = ingest::resampling_from(s.resampling);
+    options.max_posts = s.max_posts;
+    return options;
+}
+
+void print_notes(const Settings& s, const std::vector<std::string>& notes) {
+    if (s.common.quiet) return;
+    for (const auto& note : notes) fmt::print(stderr, "relevo: note: {}\n", note);
+}
+
+nlohmann::json frame_json(const geo::GridFrame& frame) {
+    return {{"columns", frame.columns},
+            {"rows", frame.rows},
+            {"step_x", frame.step_x},
+            {"step_y", frame.step_y},
+            {"step_unit", "degree"},
+            {"extent",
+             {{"west", frame.west},
+              {"south", frame.north - frame.step_y * (frame.rows - 1)},
+              {"east", frame.west + frame.step_x * (frame.columns - 1)},
+              {"north", frame.north}}}};
+}
+
+nlohmann::json plan_json(const ingest::ImportPlan& plan) {
+    nlohmann::json json = frame_json(plan.frame);
+    json["dry_run"] = true;
+    json["posts"] = plan.posts;
+    json["padded_posts"] = plan.padded_posts;
+    json["bytes_at_most"] = plan.bytes_at_most;
+    json["memory_bytes"] = plan.memory_bytes;
+    json["resampling_method"] = plan.resampling;
+    json["vertical_datum"] = plan.vertical.name;
+    json["vertical_assumed"] = plan.vertical.assumed;
+    json["crs"] = plan.source.crs;
+    json["operation"] = plan.source.operation;
+    json["operation_accuracy_m"] = nullptr;
+    if (plan.source.operation_accuracy_m) json["operation_accuracy_m"] = *plan.source.operation_accuracy_m;
+    json["notes"] = plan.notes;
+    return json;
+}
+
+Result<void> show_plan(const Settings& s) {
+    const auto plan = ingest::plan_import(options_of(s));
+    if (!plan) return plan.error();
+    print_notes(s, plan->notes);
+    if (s.common.json) {
+        fmt::print("{}\n", plan_json(*plan).dump(2));
+        return {};
+    }
+    fmt::print("{} x {} posts, step {:.10g} x {:.10g} degrees ({})\n", plan->frame.columns, plan->frame.rows,
+               plan->frame.step_x, plan->frame.step_y,
+               plan->keeps_own_posts ? "the source's own" : "resampled: " + plan->resampling);
+    fmt::print("{} posts, {} with padding; at most {:.1f} MiB on disk, about {:.1f} MiB of memory\n",
+               plan->posts, plan->padded_posts, static_cast<double>(plan->bytes_at_most) / 1048576,
+               static_cast<double>(plan->memory_bytes) / 1048576);
+    if (plan->padded_posts > s.max_posts)
+        fmt::print("more than --max-posts {}: it would be refused\n", s.max_posts);
+    return {};
+}
+
+nlohmann::json imported_json(const Settings& s, const ingest::Imported& imported, double seconds) {
+    const lod::SceneInfo& info = imported.info;
+    nlohmann::json json = frame_json(info.frame);
+    const auto posts = info.valid_posts + info.void_posts;
+    json["scene"] = s.scene;
+    json["posts"] = posts;
+    json["valid_posts"] = info.valid_posts;
+    json["void_posts"] = info.void_posts;
+    json["height_min_m"] = info.height_min_m;
+    json["height_max_m"] = info.height_max_m;
+    json["vertical_datum"] = info.vertical.name;
+    json["vertical_assumed"] = info.vertical.assumed;
+    json["resampling"] = {{"method", info.resampling_method},
+                          {"rms_m", info.resampling.rms_m},
+                          {"max_m", info.resampling.max_m},
+                          {"posts", info.resampling.posts},
+                          {"lost_posts", info.resampling.lost_posts}};
+    json["bytes"] = info.bytes();
+    json["bytes_per_post"] = static_cast<double>(info.bytes()) / static_cast<double>(posts);
+    json["seconds"] = seconds;
+    json["notes"] = imported.notes;
+    return json;
+}
+
+Result<void> run_import(const Settings& s) {
+    const StopOnSignal signals;
+    const auto bar = progress_bar(s.common, "importing");
+    const auto start = std::chrono::steady_clock::now();
+    const auto imported = ingest::import_scene(options_of(s), s.scene, s.overwrite, [&](double done) {
+        bar(done);
+        return stop_asked == 0;
+    });
+    if (!imported) return imported.error();
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    print_notes(s, imported->notes);
+    const lod::SceneInfo& info = imported->info;
+    if (s.common.json) {
+        fmt::print("{}\n", imported_json(s, *imported, seconds).dump(2));
+        return {};
+    }
+    fmt::print("{}: {} x {} posts, {:.2f} to {:.2f} m above {}\n", s.scene, info.frame.columns,
+               info.frame.rows, info.height_min_m, info.height_max_m, info.vertical.name);
+    if (info.resampling_method != "none")
+        fmt::print("resampled ({}): {:.3f} m RMS and {:.3f} m at most from the source's posts\n",
+                   info.resampling_method, info.resampling.rms_m, info.resampling.max_m);
+    fmt::print("{:.1f} MiB in {:.2f} s\n", static_cast<double>(info.bytes()) / 1048576, seconds);
+    return {};
+}
+
+Result<void> run(const Settings& s) {
+    if (s.inputs.size() > 1)
+        return Error{
+            ErrorKind::usage,
+            "one INPUT at a time for now: several files as one scene are not there yet. Join them first, "
+            "e.g. with `gdalbuildvrt all.vrt FILES...`, and import all.vrt"};
+    if (!s.dry_run && s.scene.empty())
+        return Error{ErrorKind::usage, "where to? Give the scene's name with -o"};
+    for (const double step : s.resolution)
+        if (!(step > 0)) return Error{ErrorKind::usage, "--resolution: steps in degrees, greater than 0"};
+    return s.dry_run ? show_plan(s) : run_import(s);
+}
+
+}  // namespace
+
+void add_ingest(CLI::App& program, Action& action) {
+    auto settings = std::make_shared<Settings>();
+    Settings& s = *settings;
+    CLI::App& command = *program.add_subcommand("ingest", "Import an elevation file as a scene");
+    command.add_option("INPUT", s.inputs, "An elevation file in any format that GDAL reads")->required();
+    command.add_option("-o,--output", s.scene, "The scene to make, NAME.relevo");
+    command.add_flag("--overwrite", s.overwrite, "Replace a scene of that name");
+    command.add_flag("--dry-run", s.dry_run, "Say what would be made (posts, bytes), and make nothing");
+    command.add_option("--crs", s.crs,
+                       "Coordinate reference system of the file, e.g. EPSG:32611, in place of its own");
+    command.add_option("--bounds", s.bounds, "Where the file is: outer edges of its pixels in its CRS")
+        ->type_name("W,S,E,N")
+        ->delimiter(',')
+        ->expected(4);
+    command.add_option("--nodata", s.nodata, "The value that means void, in place of the file's own");
+    command.add_option("--height-scale", s.height_scale,
+                       "Metres per unit of the file's heights (0.3048 for feet)");
+    command.add_option("--height-offset", s.height_offset, "Metres added to heights");
+    command.add_option("--vertical", s.vertical, "What heights are above, in place of what the file says")
+        ->check(CLI::IsMember({"egm96", "ellipsoid"}));
+    command.add_option("--resampling", s.resampling, "Default: cubic, or average where the scene is coarser")
+        ->check(CLI::IsMember({"cubic", "bilinear", "nearest", "average"}));
+    command
+        .add_option("--resolution", s.resolution,
+                    "Steps of longitude and latitude in place of the file's own")
+        ->type_name("DEG_X[,DEG_Y]")
+        ->delimiter(',')
+        ->expected(1, 2);
+    command
+        .add_option("--crop", s.crop, "Only this part, in degrees; W above E lies across the antimeridian")
+        ->type_name("W,S,E,N")
+        ->delimiter(',')
+        ->expected(4);
+    command.add_option("--max-posts", s.max_posts, "Refuse scenes whose padded grid is larger")
+        ->capture_default_str();
+    add_common(command, s.common);
+    command.footer(
+        "Example:\n  relevo ingest everest.tif -o everest.relevo\n"
+        "  relevo ingest trinidad.nc --crs EPSG:4326 --height-scale 0.3048 -o trinidad.relevo");
+    command.callback([&action, settings] { action = [settings] { return run(*settings); }; });
+}
+
+}  // namespace relevo::app

@@ -1,0 +1,155 @@
+#include "ingest/source.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "ingest/gdal_messages.hpp"
+#include "ingest/georeference.hpp"
+#include "ingest/refusal.hpp"
+
+namespace relevo::ingest {
+namespace {
+
+constexpr double kVoid = std::numeric_limits<double>::quiet_NaN();
+
+bool is_picture(GDALColorInterp interpretation) {
+    return interpretation == GCI_PaletteIndex ||
+           (interpretation >= GCI_RedBand && interpretation <= GCI_BlueBand);
+}
+
+}  // namespace
+
+Result<Source> Source::open(const SourceRequest& request) {
+    Source source;
+    const GdalMessages messages;
+    auto opened = open_dataset(request.input);
+    if (!opened) return opened.error();
+    source.opened_ = std::move(*opened);
+    source.columns_ = source.opened_.dataset->GetRasterXSize();
+    source.rows_ = source.opened_.dataset->GetRasterYSize();
+    if (auto chosen = source.choose_band(); !chosen) return chosen.error();
+    GDALRasterBand& band = *source.band_;
+
+    auto where = georeference(source.opened_, request.crs, request.bounds, messages.text());
+    if (!where) return where.error();
+    source.crs_ = std::move(where->crs);
+    source.posts_ = where->posts;
+    if (!where->note.empty()) source.notes_.push_back(where->note);
+
+    int has_nodata = 0;
+    const double own_nodata = band.GetNoDataValue(&has_nodata);
+    if (has_nodata != 0) source.nodata_ = own_nodata;
+    if (request.nodata) {
+        source.nodata_ = request.nodata;
+        source.notes_.push_back(fmt::format("{} is taken as void (--nodata)", *request.nodata));
+    }
+    const int mask = band.GetMaskFlags();
+    source.masked_ = (mask & (GMF_PER_DATASET | GMF_ALPHA)) != 0;
+
+    VerticalClues clues;
+    clues.unit = band.GetUnitType();
+    clues.scale = band.GetScale();
+    clues.offset = band.GetOffset();
+    clues.crs = source.crs_->vertical();
+    clues.height_scale = request.height_scale;
+    clues.height_offset = request.height_offset;
+    clues.datum = request.vertical;
+    auto rule = height_rule(clues);
+    if (!rule) return refusal(source.name(), rule.error().message, "");
+    source.rule_ = std::move(*rule);
+    source.notes_.insert(source.notes_.end(), source.rule_.notes.begin(), source.rule_.notes.end());
+    return source;
+}
+
+Result<void> Source::choose_band() {
+    std::vector<int> candidates;
+    bool picture = false;
+    for (int i = 1; i <= opened_.dataset->GetRasterCount(); ++i) {
+        const auto interpretation = opened_.dataset->GetRasterBand(i)->GetColorInterpretation();
+        picture = picture || is_picture(interpretation);
+        if (interpretation != GCI_AlphaBand) candidates.push_back(i);
+    }
+    if (picture)
+        return refusal(
+            name(), "it looks like an image, not like heights (colours or a palette)",
+            "Heights packed into colours (terrain-RGB) are not read yet; convert them to one band first");
+    if (candidates.empty()) return refusal(name(), "it has no band of heights", "");
+    if (candidates.size() > 1)
+        return refusal(name(),
+                       fmt::format("it has {} bands, any of which could be heights", candidates.size()),
+                       "Take the one with `gdal_translate -b N` and import that");
+    band_ = opened_.dataset->GetRasterBand(candidates[0]);
+    if (GDALDataTypeIsComplex(band_->GetRasterDataType()) != 0)
+        return refusal(name(), "its values are complex numbers, not heights", "");
+    return {};
+}
+
+bool Source::whole_metres() const {
+    return rule_.identity() && GDALDataTypeIsInteger(band_->GetRasterDataType()) != 0;
+}
+
+std::string Source::value_type() const {
+    return GDALGetDataTypeName(band_->GetRasterDataType());
+}
+
+Result<lod::Raster<double>> Source::read(Window window) const {
+    lod::Raster<double> heights{window.columns, window.rows, kVoid};
+    const int left = std::max(window.column, 0);
+    const int top = std::max(window.row, 0);
+    const int right = std::min(window.column + window.columns, columns_);
+    const int bottom = std::min(window.row + window.rows, rows_);
+    if (left < right && top < bottom) {
+        const Window inside{left, top, right - left, bottom - top};
+        if (auto done = read_values(inside, heights, left - window.column, top - window.row); !done)
+            return done.error();
+    }
+    return heights;
+}
+
+Result<void> Source::read_values(Window window, lod::Raster<double>& into, int column, int row) const {
+    const GdalMessages messages;
+    const auto line = static_cast<GSpacing>(into.columns()) * static_cast<GSpacing>(sizeof(double));
+    if (band_->RasterIO(GF_Read, window.column, window.row, window.columns, window.rows,
+                        &into.at(column, row), window.columns, window.rows, GDT_Float64, sizeof(double), line,
+                        nullptr) != CE_None)
+        return refusal(name(), fmt::format("it is cut short or damaged ({})", messages.text()),
+                       "Fetch it again");
+
+    lod::Raster<std::uint8_t> mask;
+    if (masked_) {
+        mask = lod::Raster<std::uint8_t>{window.columns, window.rows};
+        if (band_->GetMaskBand()->RasterIO(GF_Read, window.column, window.row, window.columns, window.rows,
+                                           mask.row(0), window.columns, window.rows, GDT_Byte, 0, 0,
+                                           nullptr) != CE_None)
+            return refusal(name(), fmt::format("its mask cannot be read ({})", messages.text()),
+                           "Fetch it again");
+    }
+    for (int r = 0; r < window.rows; ++r) {
+        double* values = &into.at(column, row + r);
+        for (int c = 0; c < window.columns; ++c) {
+            double& value = values[c];
+            if (is_void(value) || (masked_ && mask.at(c, r) == 0)) {
+                value = kVoid;
+                continue;
+            }
+            if (!rule_.identity()) value = rule_(value);
+            if (std::abs(value) > std::numeric_limits<float>::max()) value = kVoid;
+        }
+    }
+    return {};
+}
+
+bool Source::is_void(double value) const {
+    if (!std::isfinite(value)) return true;
+    if (!nodata_) return false;
+    if (value == *nodata_) return true;
+    // A nodata value is stored as text, often with too few digits to be a float's own value.
+    return band_->GetRasterDataType() == GDT_Float32 &&
+           static_cast<float>(value) == static_cast<float>(*nodata_);
+}
+
+}  // namespace relevo::ingest

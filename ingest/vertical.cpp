@@ -1,0 +1,147 @@
+#include "ingest/vertical.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace relevo::ingest {
+namespace {
+
+constexpr double kFoot = 0.3048;
+constexpr double kSurveyFoot = 1200.0 / 3937.0;
+
+struct NamedUnit {
+    std::string_view name;
+    double metres;
+};
+
+// In small letters, without spaces and signs.
+constexpr std::array kUnits{
+    NamedUnit{"m", 1},
+    NamedUnit{"metre", 1},
+    NamedUnit{"metres", 1},
+    NamedUnit{"meter", 1},
+    NamedUnit{"meters", 1},
+    NamedUnit{"mm", 0.001},
+    NamedUnit{"millimetre", 0.001},
+    NamedUnit{"millimeter", 0.001},
+    NamedUnit{"cm", 0.01},
+    NamedUnit{"centimetre", 0.01},
+    NamedUnit{"centimeter", 0.01},
+    NamedUnit{"dm", 0.1},
+    NamedUnit{"decimetre", 0.1},
+    NamedUnit{"decimeter", 0.1},
+    NamedUnit{"km", 1000},
+    NamedUnit{"kilometre", 1000},
+    NamedUnit{"kilometer", 1000},
+    NamedUnit{"ft", kFoot},
+    NamedUnit{"foot", kFoot},
+    NamedUnit{"feet", kFoot},
+    NamedUnit{"internationalfoot", kFoot},
+    NamedUnit{"internationalfeet", kFoot},
+    NamedUnit{"ftus", kSurveyFoot},
+    NamedUnit{"usft", kSurveyFoot},
+    NamedUnit{"sft", kSurveyFoot},
+    NamedUnit{"ussurveyfoot", kSurveyFoot},
+    NamedUnit{"ussurveyfeet", kSurveyFoot},
+    NamedUnit{"footus", kSurveyFoot},
+    NamedUnit{"surveyfoot", kSurveyFoot},
+    NamedUnit{"surveyfeet", kSurveyFoot},
+};
+
+bool is_unnamed(const std::string& name) {
+    return name.empty() || name == "unknown" || name == "unnamed";
+}
+
+lod::VerticalReference reference(const VerticalClues& clues, std::vector<std::string>& notes) {
+    using lod::VerticalDatum;
+    const bool told = clues.crs && !is_unnamed(clues.crs->name);
+    if (clues.datum) {
+        const bool ellipsoid = *clues.datum == VerticalDatum::ellipsoid;
+        if (told)
+            notes.push_back(fmt::format("the file's vertical datum ({}) is overridden", clues.crs->name));
+        return {*clues.datum, ellipsoid ? "WGS 84 ellipsoid" : "EGM96", false};
+    }
+    if (!told) {
+        notes.emplace_back(
+            "the file does not say what its heights are above: mean sea level (EGM96) is assumed; "
+            "--vertical tells otherwise");
+        return {VerticalDatum::egm96, "EGM96", true};
+    }
+    if (clues.crs->ellipsoidal) return {VerticalDatum::ellipsoid, clues.crs->name, false};
+    if (clues.crs->code == "EPSG:5773" || clues.crs->name.rfind("EGM96", 0) == 0)
+        return {VerticalDatum::egm96, "EGM96", false};
+    notes.push_back(
+        fmt::format("heights are kept above {}, whose geoid is not here: h and N are unknown, pictures use "
+                    "EGM96",
+                    clues.crs->name));
+    return {VerticalDatum::other, clues.crs->name, false};
+}
+
+Result<double> unit_in_metres(const VerticalClues& clues, std::vector<std::string>& notes) {
+    if (clues.height_scale) {
+        notes.push_back(fmt::format("heights are multiplied by {} (--height-scale)", *clues.height_scale));
+        return *clues.height_scale;
+    }
+    std::optional<double> band;
+    if (!clues.unit.empty()) {
+        band = length_unit(clues.unit);
+        if (!band)
+            return Error{
+                ErrorKind::input,
+                fmt::format("the band's unit '{}' is not a length, so these may not be heights. If they are, "
+                            "give metres per unit with --height-scale",
+                            clues.unit)};
+    }
+    // A CRS without a usable name still tells its unit.
+    if (band && clues.crs && std::abs(*band - clues.crs->unit_m) > 1e-9)
+        return Error{
+            ErrorKind::input,
+            fmt::format("the band's unit is '{}', but its vertical CRS '{}' has a unit of {} m. Give metres "
+                        "per unit with --height-scale",
+                        clues.unit, clues.crs->name, clues.crs->unit_m)};
+    const double unit = band ? *band : clues.crs ? clues.crs->unit_m : 1;
+    if (unit != 1) notes.push_back(fmt::format("heights are converted from units of {:.10g} m", unit));
+    return unit;
+}
+
+}  // namespace
+
+std::optional<double> length_unit(const std::string& name) {
+    std::string plain;
+    for (const char c : name)
+        if (std::isalpha(static_cast<unsigned char>(c)) != 0)
+            plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const auto* found =
+        std::find_if(kUnits.begin(), kUnits.end(), [&](const NamedUnit& u) { return u.name == plain; });
+    if (found == kUnits.end()) return {};
+    return found->metres;
+}
+
+Result<HeightRule> height_rule(const VerticalClues& clues) {
+    HeightRule rule;
+    const auto unit = unit_in_metres(clues, rule.notes);
+    if (!unit) return unit.error();
+    const double sign = clues.crs && clues.crs->down ? -1 : 1;
+    if (sign < 0) rule.notes.emplace_back("depths (positive downwards) are turned into heights");
+    if (clues.scale != 1 || clues.offset != 0)
+        rule.notes.push_back(
+            fmt::format("the band's scale {} and offset {} are applied", clues.scale, clues.offset));
+    if (clues.height_offset != 0)
+        rule.notes.push_back(fmt::format("{} m are added to heights (--height-offset)", clues.height_offset));
+    rule.scale = clues.scale * *unit * sign;
+    rule.offset = clues.offset * *unit * sign + clues.height_offset;
+    if (!std::isfinite(rule.scale) || rule.scale == 0 || !std::isfinite(rule.offset))
+        return Error{ErrorKind::input,
+                     fmt::format("a scale of {} and an offset of {} give no heights. Give others "
+                                 "with --height-scale and --height-offset",
+                                 rule.scale, rule.offset)};
+    rule.reference = reference(clues, rule.notes);
+    return rule;
+}
+
+}  // namespace relevo::ingest
