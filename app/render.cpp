@@ -1,1 +1,162 @@
-// written next
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "app/command.hpp"
+#include "app/view_flags.hpp"
+#include "viewer/numbers.hpp"
+#include "viewer/offscreen.hpp"
+
+namespace relevo::app {
+
+namespace {
+
+struct RenderFlags {
+    std::string scene;
+    std::string output;
+    std::optional<std::string> background;
+    bool measure_error = false;
+    ViewFlags view;
+    Common common;
+};
+
+Result<std::optional<std::array<float, 3>>> read_background(const std::optional<std::string>& text) {
+    if (!text) return std::optional<std::array<float, 3>>{};
+    const auto numbers = viewer::parse_numbers(*text);
+    bool fits = numbers && numbers->size() == 3;
+    std::array<float, 3> colour{};
+    for (std::size_t i = 0; fits && i < 3; ++i) {
+        fits = (*numbers)[i] >= 0 && (*numbers)[i] <= 255;
+        colour[i] = static_cast<float>((*numbers)[i] / 255);
+    }
+    if (!fits)
+        return Error{ErrorKind::usage, fmt::format("--background {}: expected R,G,B, each 0 to 255", *text)};
+    return std::optional(colour);
+}
+
+/// Memory of this process that is in RAM now, MiB.
+double resident_mib() {
+    std::ifstream statm("/proc/self/statm");
+    double total = 0;
+    double resident = 0;
+    statm >> total >> resident;
+    return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024 * 1024);
+}
+
+nlohmann::json to_json(const viewer::ViewState& view, const viewer::PictureRequest& request,
+                       const viewer::PictureFigures& figures, const std::string& output) {
+    nlohmann::json json{{"picture", output},
+                        {"width", request.width},
+                        {"height", request.height},
+                        {"samples", request.samples},
+                        {"lod", to_string(view.method)},
+                        {"metric", viewer::metric_name(view.metric)},
+                        {"morph", view.morph},
+                        {"tau_px", view.tau_px},
+                        {"triangles", figures.triangles},
+                        {"draw_calls", figures.draw_calls},
+                        {"refine_ms", figures.refine_ms},
+                        {"frame_ms", figures.frame_ms},
+                        {"max_error_px", nullptr},
+                        {"rms_error_px", nullptr},
+                        {"p99_error_px", nullptr},
+                        {"error_posts", nullptr},
+                        {"error_pixels", nullptr},
+                        {"uncovered_posts", nullptr},
+                        {"resident_mib", resident_mib()},
+                        {"ocean", nullptr},
+                        {"gl_renderer", figures.gl},
+                        {"at", to_string(view)}};
+    if (view.method == viewer::Method::full) json["tau_px"] = nullptr;
+    if (figures.error) {
+        json["max_error_px"] = figures.error->max_px;
+        json["rms_error_px"] = figures.error->rms_px;
+        json["p99_error_px"] = figures.error->p99_px;
+        json["error_posts"] = figures.error->posts;
+        json["error_pixels"] = figures.error->pixels;
+        json["uncovered_posts"] = figures.error->uncovered_posts;
+    }
+    return json;
+}
+
+void print(const viewer::ViewState& view, const viewer::PictureRequest& request,
+           const viewer::PictureFigures& figures, const std::string& output) {
+    fmt::print("{}: {} x {} pixels, {} triangles, refined in {:.1f} ms, drawn in {:.1f} ms\n", output,
+               request.width, request.height, figures.triangles, figures.refine_ms, figures.frame_ms);
+    if (figures.error) {
+        fmt::print("measured error: at most {:.3f} px, RMS {:.3f} px\n", figures.error->max_px,
+                   figures.error->rms_px);
+    } else if (request.measure_error) {
+        fmt::print("measured error: none, for there is no ground in view\n");
+    }
+    fmt::print("by {}\n--at {}\n", figures.gl, to_string(view));
+}
+
+Result<void> run(const RenderFlags& flags) {
+    // Everything that the command line got wrong is said before the scene is read.
+    auto view = read_view(flags.view, {});
+    if (!view) return view.error();
+    const auto size = read_size(flags.view, {});
+    if (!size) return size.error();
+    const auto samples = read_samples(flags.view, 4);
+    if (!samples) return samples.error();
+    const auto background = read_background(flags.background);
+    if (!background) return background.error();
+    if (auto known = viewer::check_picture_name(flags.output); !known) return known;
+
+    const auto scene = lod::Scene::open(flags.scene);
+    if (!scene) return scene.error();
+    const auto terrain = lod::Terrain::load(*scene, view->metric);
+    if (!terrain) return terrain.error();
+    const auto heights = viewer::EyeHeight::create(scene->info().vertical.datum);
+    if (!heights) return heights.error();
+    place_view(*view, flags.view, *scene, *terrain, *heights, *size);
+
+    const viewer::PictureRequest request{.width = size->width,
+                                         .height = size->height,
+                                         .samples = *samples,
+                                         .background = *background,
+                                         .measure_error = flags.measure_error};
+    const auto finished = viewer::draw_picture(*terrain, *heights, *view, request);
+    if (!finished) return finished.error();
+    if (auto done = viewer::write_picture(finished->picture, flags.output, to_string(*view)); !done)
+        return done;
+    if (flags.common.json) {
+        fmt::print("{}\n", to_json(*view, request, finished->figures, flags.output).dump(2));
+    } else {
+        print(*view, request, finished->figures, flags.output);
+    }
+    return {};
+}
+
+}  // namespace
+
+void add_render(CLI::App& program, Action& action) {
+    auto flags = std::make_shared<RenderFlags>();
+    CLI::App* command = program.add_subcommand("render", "Draw a picture of a scene; needs no display");
+    command->footer(
+        "Example:\n  relevo render colorado.relevo -o blanca.png --eye 37.45,-105.75,3200 --heading 55 "
+        "--pitch -3");
+    command->add_option("SCENE", flags->scene, "A scene made by relevo ingest")->required();
+    command->add_option("-o,--output", flags->output, "The picture: .png, .jpg or .tif")
+        ->required()
+        ->type_name("PICTURE");
+    add_view_flags(*command, flags->view);
+    command
+        ->add_option("--background", flags->background,
+                     "A flat colour instead of sky and haze, 0 to 255 each")
+        ->type_name("R,G,B");
+    command->add_flag("--measure-error", flags->measure_error,
+                      "Measure the picture's error against the full data, by brute force");
+    add_common(*command, flags->common);
+    command->callback([flags, &action] { action = [flags] { return run(*flags); }; });
+}
+
+}  // namespace relevo::app

@@ -1,1 +1,182 @@
-// written next
+#include "viewer/renderer.hpp"
+
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include "viewer/frame_block.hpp"
+#include "viewer/gl_check.hpp"
+#include "viewer/gl_program.hpp"
+
+namespace relevo::viewer {
+
+namespace {
+
+constexpr GLuint kFrameBinding = 0;
+constexpr GLuint kPostsUnit = 0;
+constexpr GLuint kCellsUnit = 1;
+constexpr GLuint kRampUnit = 2;
+
+/// Fills a buffer that is made anew every frame. Fresh storage of the same size lets the driver keep the old
+/// one for a frame that is still being drawn.
+void stream(const GlBuffer& buffer, std::size_t& capacity, const void* data, std::size_t bytes) {
+    if (bytes > capacity) capacity = bytes + bytes / 2;
+    if (capacity == 0) return;
+    glNamedBufferData(buffer.name(), static_cast<GLsizeiptr>(capacity), nullptr, GL_STREAM_DRAW);
+    glNamedBufferSubData(buffer.name(), 0, static_cast<GLsizeiptr>(bytes), data);
+}
+
+}  // namespace
+
+Result<Renderer> Renderer::create(const lod::Terrain& terrain) {
+    Renderer made(terrain);
+    auto textures = build_terrain_textures(terrain);
+    if (!textures) return textures.error();
+    made.textures_ = std::move(*textures);
+    if (auto done = made.make_ramps(); !done) return done.error();
+
+    auto sky = build_program({.name = "sky",
+                              .defines = {},
+                              .common = shader_text("frame.glsl"),
+                              .vertex = shader_text("sky.vert"),
+                              .geometry = {},
+                              .fragment = shader_text("sky.frag")});
+    if (!sky) return sky.error();
+    made.sky_program_ = std::move(*sky);
+
+    made.frame_ = GlBuffer::create();
+    glNamedBufferStorage(made.frame_.name(), sizeof(FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
+    made.make_vertex_array();
+    made.seen_ = GlQuery(create_gl_query(GL_ANY_SAMPLES_PASSED));
+    const geo::GridFrame& grid = terrain.frame();
+    made.base_undulation_m_ = static_cast<float>(
+        terrain.undulations().at(geo::GridPosition{0.5 * (grid.columns - 1), 0.5 * (grid.rows - 1)}));
+    if (auto done = gl_check("preparing to draw"); !done) return done.error();
+    return made;
+}
+
+Result<void> Renderer::make_ramps() {
+    const std::array<Layer, 2> layers{Layer::hypsometric, Layer::slope};
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        const auto colours = colour_ramp(layers[i]);
+        ramps_[i] = GlTexture(create_gl_texture(GL_TEXTURE_2D));
+        const GlName name = ramps_[i].name();
+        const auto width = static_cast<GLsizei>(colours.size());
+        glTextureStorage2D(name, 1, GL_RGBA8, width, 1);
+        glTextureSubImage2D(name, 0, 0, 0, width, 1, GL_RGBA, GL_UNSIGNED_BYTE, colours.data());
+        glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+        glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+        glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    }
+    return gl_check("making the colours");
+}
+
+void Renderer::make_vertex_array() {
+    vertices_ = GlBuffer::create();
+    indices_ = GlBuffer::create();
+    no_vertices_ = GlVertexArray::create();
+    vertex_array_ = GlVertexArray::create();
+    const GlName array = vertex_array_.name();
+    glVertexArrayVertexBuffer(array, 0, vertices_.name(), 0, sizeof(lod::MeshVertex));
+    glVertexArrayElementBuffer(array, indices_.name());
+    glEnableVertexArrayAttrib(array, 0);
+    glVertexArrayAttribFormat(array, 0, 3, GL_FLOAT, GL_FALSE, offsetof(lod::MeshVertex, x));
+    glVertexArrayAttribBinding(array, 0, 0);
+    glEnableVertexArrayAttrib(array, 1);
+    glVertexArrayAttribIFormat(array, 1, 2, GL_UNSIGNED_SHORT, offsetof(lod::MeshVertex, column));
+    glVertexArrayAttribBinding(array, 1, 0);
+}
+
+Result<GlName> Renderer::terrain_program(const Variant& variant) {
+    if (const auto known = terrain_programs_.find(variant); known != terrain_programs_.end()) {
+        return known->second.name();
+    }
+    std::string defines = fmt::format("#define LAYER {}\n#define CENTROID {}\n",
+                                      static_cast<int>(variant.layer), variant.centroid ? "centroid" : "");
+    if (variant.wireframe) defines += "#define WIREFRAME\n";
+    if (variant.sun_fixed) defines += "#define SUN_FIXED\n";
+    if (variant.sky) defines += "#define SKY\n";
+    if (textures_.has_voids()) defines += "#define VOIDS\n";
+    auto program =
+        build_program({.name = "terrain",
+                       .defines = std::move(defines),
+                       .common = shader_text("frame.glsl"),
+                       .vertex = shader_text("terrain.vert"),
+                       .geometry = variant.wireframe ? shader_text("terrain.geom") : std::string_view{},
+                       .fragment = shader_text("terrain.frag")});
+    if (!program) return program.error();
+    return terrain_programs_.emplace(variant, std::move(*program)).first->second.name();
+}
+
+void Renderer::upload(const lod::Mesh& mesh) {
+    stream(vertices_, vertex_bytes_, mesh.vertices.data(), mesh.vertices.size() * sizeof(lod::MeshVertex));
+    stream(indices_, index_bytes_, mesh.indices.data(), mesh.indices.size() * sizeof(std::uint32_t));
+    index_count_ = static_cast<int>(mesh.indices.size());
+}
+
+Result<DrawFigures> Renderer::draw(const lod::View& view, const DrawSettings& settings,
+                                   const RenderTarget& target, Region region, bool count_terrain) {
+    DrawFigures figures;
+    const bool sky = !settings.background;
+    const auto program = terrain_program({.layer = settings.layer,
+                                          .wireframe = settings.wireframe,
+                                          .sun_fixed = settings.sun.kind == SunSetting::Kind::time,
+                                          .sky = sky,
+                                          .centroid = target.samples() > 1});
+    if (!program) return program.error();
+
+    const FrameBlock block =
+        frame_block(view, *terrain_, {region.x, region.y, target.width(), target.height()}, settings.sun,
+                    settings.exaggeration, base_undulation_m_);
+    glNamedBufferSubData(frame_.name(), 0, sizeof(block), &block);
+    glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, frame_.name());
+
+    const auto colour = settings.background.value_or(std::array<float, 3>{0, 0, 0});
+    target.begin(colour[0], colour[1], colour[2]);
+    glDisable(GL_BLEND);
+    glDisable(GL_CULL_FACE);  // the ground is also seen from below
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+
+    if (index_count_ > 0) {
+        glUseProgram(*program);
+        glBindVertexArray(vertex_array_.name());
+        glBindTextureUnit(kPostsUnit, textures_.posts.name());
+        glBindTextureUnit(kCellsUnit, textures_.cells.name());
+        glBindTextureUnit(kRampUnit, ramps_[settings.layer == Layer::slope ? 1 : 0].name());
+        glEnable(GL_CLIP_DISTANCE0);
+        glEnable(GL_CLIP_DISTANCE1);
+        if (count_terrain) glBeginQuery(GL_ANY_SAMPLES_PASSED, seen_.name());
+        glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
+        if (count_terrain) glEndQuery(GL_ANY_SAMPLES_PASSED);
+        glDisable(GL_CLIP_DISTANCE0);
+        glDisable(GL_CLIP_DISTANCE1);
+        ++figures.draw_calls;
+    }
+    if (sky) {
+        // After the ground, and only where nothing was drawn: there depth is still 0.
+        glDepthFunc(GL_EQUAL);
+        glDepthMask(GL_FALSE);
+        glUseProgram(sky_program_.name());
+        glBindVertexArray(no_vertices_.name());
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+        glDepthMask(GL_TRUE);
+        ++figures.draw_calls;
+    }
+    glBindVertexArray(0);
+    glUseProgram(0);
+    target.resolve();
+    if (count_terrain && index_count_ > 0) {
+        GLuint seen = 0;
+        glGetQueryObjectuiv(seen_.name(), GL_QUERY_RESULT, &seen);
+        figures.terrain_seen = seen != 0;
+    }
+    if (auto done = gl_check("drawing"); !done) return done.error();
+    return figures;
+}
+
+}  // namespace relevo::viewer

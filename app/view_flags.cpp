@@ -1,0 +1,123 @@
+#include "app/view_flags.hpp"
+
+#include <charconv>
+
+#include <fmt/format.h>
+
+#include "viewer/camera.hpp"
+#include "viewer/numbers.hpp"
+#include "viewer/offscreen.hpp"
+
+namespace relevo::app {
+
+namespace {
+
+Error usage(std::string message) {
+    return {ErrorKind::usage, std::move(message)};
+}
+
+template <class T>
+Result<void> keep(const char* flag, const Result<T>& parsed, T& place) {
+    if (!parsed) return usage(fmt::format("{}: {}", flag, parsed.error().message));
+    place = *parsed;
+    return {};
+}
+
+Result<void> read_eye(const std::string& text, viewer::ViewState& view) {
+    const auto numbers = viewer::parse_numbers(text);
+    if (!numbers || numbers->size() != 3) {
+        return usage(fmt::format("--eye {}: expected LAT,LON,H in degrees and metres", text));
+    }
+    view.place = {geo::Degrees{(*numbers)[0]}, geo::Degrees{(*numbers)[1]}};
+    view.H.m = (*numbers)[2];
+    return {};
+}
+
+void turn(viewer::ViewState& view, const ViewFlags& flags) {
+    if (flags.heading) view.heading.value = *flags.heading;
+    if (flags.pitch) view.pitch.value = *flags.pitch;
+    if (flags.roll) view.roll.value = *flags.roll;
+}
+
+std::optional<int> whole_number(std::string_view text) {
+    int number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return number;
+}
+
+}  // namespace
+
+void add_view_flags(CLI::App& command, ViewFlags& flags) {
+    const auto add = [&command](const char* name, auto& place, const char* value, const char* what) {
+        command.add_option(name, place, what)->type_name(value);
+    };
+    add("--at", flags.at, "VIEW", "A whole view in one string, as the window copies it (V)");
+    add("--eye", flags.eye, "LAT,LON,H", "Where the eye is; H in metres above the scene's vertical datum");
+    add("--heading", flags.heading, "DEG", "Clockwise from north");
+    add("--pitch", flags.pitch, "DEG", "0 at the horizon, -90 straight down");
+    add("--roll", flags.roll, "DEG", "Of the head, to the right");
+    add("--fov", flags.fov, "DEG", "Vertical view angle, above 0 and below 180 [60]");
+    add("--size", flags.size, "WxH", "Of the picture, pixels [1280x720]");
+    add("--lod", flags.method, "soar|full", "How the mesh is made [soar]");
+    add("--metric", flags.metric, "bounded|incremental", "The error that drives it [bounded]");
+    add("--tau", flags.tau, "PX", "Largest error on the screen, pixels [1]");
+    add("--morph", flags.morph, "on|off", "Vertices move in continuously");
+    add("--exaggeration", flags.exaggeration, "X", "Of heights, in the picture only [1]");
+    add("--layer", flags.layer, "hypsometric|hillshade|slope|lod", "What colours the ground [hypsometric]");
+    add("--sun", flags.sun, "auto|AZ,EL|TIME", "Where the light comes from; TIME is ISO 8601 [auto: 315,45]");
+    add("--samples", flags.samples, "1|4|8", "Samples a pixel, for smooth edges");
+    command.add_flag("--wireframe", flags.wireframe, "Draw the mesh's edges, coloured by level");
+}
+
+Result<viewer::ViewState> read_view(const ViewFlags& flags, const viewer::ViewState& base) {
+    viewer::ViewState view = base;
+    Result<void> done;
+    if (flags.at) done = keep("--at", viewer::parse_view_state(*flags.at, base), view);
+    if (done && flags.eye) done = read_eye(*flags.eye, view);
+    if (done && flags.method) done = keep("--lod", viewer::parse_method(*flags.method), view.method);
+    if (done && flags.metric) done = keep("--metric", viewer::parse_metric(*flags.metric), view.metric);
+    if (done && flags.morph) done = keep("--morph", viewer::parse_switch(*flags.morph), view.morph);
+    if (done && flags.layer) done = keep("--layer", viewer::parse_layer(*flags.layer), view.layer);
+    if (done && flags.sun) done = keep("--sun", viewer::parse_sun(*flags.sun), view.sun);
+    if (!done) return done.error();
+    turn(view, flags);
+    if (flags.fov) view.fov.value = *flags.fov;
+    if (flags.tau) view.tau_px = *flags.tau;
+    if (flags.exaggeration) view.exaggeration = *flags.exaggeration;
+    if (flags.wireframe) view.wireframe = true;
+    if (auto fine = check(view); !fine) return fine.error();
+    return view;
+}
+
+void place_view(viewer::ViewState& view, const ViewFlags& flags, const lod::Scene& scene,
+                const lod::Terrain& terrain, const viewer::EyeHeight& heights, PictureSize size) {
+    if (flags.at || flags.eye) return;
+    viewer::look_over(view, terrain, scene.info(), heights, size.width, size.height);
+    turn(view, flags);
+}
+
+Result<PictureSize> read_size(const ViewFlags& flags, PictureSize base) {
+    if (!flags.size) return base;
+    const std::string_view text = *flags.size;
+    const std::size_t x = std::min(text.find('x'), text.size());
+    const auto width = whole_number(text.substr(0, x));
+    const auto height = whole_number(text.substr(std::min(x + 1, text.size())));
+    const auto fits = [](std::optional<int> side) {
+        return side && *side >= 1 && *side <= viewer::kLargestPicture;
+    };
+    if (!fits(width) || !fits(height)) {
+        return usage(
+            fmt::format("--size {}: expected WIDTHxHEIGHT, each 1 to {}", text, viewer::kLargestPicture));
+    }
+    return PictureSize{*width, *height};
+}
+
+Result<int> read_samples(const ViewFlags& flags, int base) {
+    const int samples = flags.samples.value_or(base);
+    if (samples != 1 && samples != 4 && samples != 8)
+        return usage(fmt::format("--samples {}: 1, 4 or 8", samples));
+    return samples;
+}
+
+}  // namespace relevo::app

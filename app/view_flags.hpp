@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "geo/result.hpp"
+#include "lod/scene/scene.hpp"
+#include "lod/terrain.hpp"
+#include "viewer/eye_height.hpp"
+#include "viewer/view_state.hpp"
+
+namespace relevo::app {
+
+struct PictureSize {
+    int width = 1280;
+    int height = 720;
+};
+
+/// The flags that say what is seen: shared by the commands that draw.
+struct ViewFlags {
+    std::optional<std::string> at, eye, size, method, metric, morph, layer, sun;
+    std::optional<double> heading, pitch, roll, fov, tau, exaggeration;
+    bool wireframe = false;
+    std::optional<int> samples;
+};
+void add_view_flags(CLI::App& command, ViewFlags& flags);
+
+/// What the flags say: `base`, changed by --at, changed by the other flags. Values out of range are usage
+/// errors.
+Result<viewer::ViewState> read_view(const ViewFlags& flags, const viewer::ViewState& base);
+
+/// Where neither --at nor --eye says where to look from, looks over the whole scene.
+void place_view(viewer::ViewState& view, const ViewFlags& flags, const lod::Scene& scene,
+                const lod::Terrain& terrain, const viewer::EyeHeight& heights, PictureSize size);
+
+Result<PictureSize> read_size(const ViewFlags& flags, PictureSize base);
+
+/// 1, 4 or 8.
+Result<int> read_samples(const ViewFlags& flags, int base);
+
+}  // namespace relevo::app

@@ -1,0 +1,78 @@
+#include "viewer/camera.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace relevo::viewer {
+
+lod::Camera camera_of(const ViewState& view, const EyeHeight& heights, int width, int height) {
+    return {.eye = {view.place.lat, view.place.lon, view.H + heights.undulation(view.place)},
+            .heading = view.heading,
+            .pitch = view.pitch,
+            .roll = view.roll,
+            .fov = view.fov,
+            .width = width,
+            .height = height};
+}
+
+void set_eye(ViewState& view, const EyeHeight& heights, const geo::Geodetic& eye) {
+    view.place = {eye.lat, eye.lon};
+    view.H = eye.h - heights.undulation(view.place);
+}
+
+namespace {
+
+/// The view from `distance` metres south of and above `target`, towards it.
+void look_from_south(ViewState& view, const EyeHeight& heights, const geo::Geodetic& target,
+                     double distance) {
+    const double angle = geo::Degrees{30}.radians();
+    const geo::EnuFrame there(target);
+    const geo::Geodetic eye =
+        geo::to_geodetic(there.to_ecef({{0, -distance * std::cos(angle), distance * std::sin(angle)}}));
+    const glm::dvec3 to_target = glm::normalize(geo::EnuFrame(eye).from_ecef(there.origin()).m);
+    set_eye(view, heights, eye);
+    view.heading = geo::wrapped_360(geo::Degrees::from_radians(std::atan2(to_target.x, to_target.y)));
+    view.pitch = geo::Degrees::from_radians(std::asin(std::clamp(to_target.z, -1.0, 1.0)));
+}
+
+}  // namespace
+
+void look_over(ViewState& view, const lod::Terrain& terrain, const lod::SceneInfo& info,
+               const EyeHeight& heights, int width, int height) {
+    const geo::GridFrame& grid = terrain.frame();
+    const double low = std::min(view.exaggeration * info.height_min_m, view.exaggeration * info.height_max_m);
+    const double high =
+        std::max(view.exaggeration * info.height_min_m, view.exaggeration * info.height_max_m);
+    const auto at = [&](double across, double down, double H) {
+        const geo::LatLon place = grid.lat_lon({across * (grid.columns - 1), down * (grid.rows - 1)});
+        return geo::Geodetic{place.lat, place.lon, geo::OrthometricHeight{H} + heights.undulation(place)};
+    };
+    const geo::Geodetic target = at(0.5, 0.5, 0.5 * (low + high));
+
+    const auto shows_all = [&](double distance) {
+        look_from_south(view, heights, target, distance);
+        const lod::View seen(camera_of(view, heights, width, height));
+        for (const double across : {0.0, 0.5, 1.0}) {
+            for (const double down : {0.0, 0.5, 1.0}) {
+                for (const double H : {low, high}) {
+                    if (!seen.sees(geo::to_ecef(at(across, down, H)) - seen.eye())) return false;
+                }
+            }
+        }
+        return true;
+    };
+    // From too near something is out of the picture; from far enough everything is in it.
+    double near = 50;
+    double far = near;
+    while (far < 5e7 && !shows_all(far)) far *= 2;
+    for (int i = 0; i < 20 && far > 1.01 * near; ++i) {
+        const double middle = 0.5 * (near + far);
+        (shows_all(middle) ? far : near) = middle;
+    }
+    look_from_south(view, heights, target, far);
+    view.roll = geo::Degrees{0};
+}
+
+}  // namespace relevo::viewer

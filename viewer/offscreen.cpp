@@ -1,0 +1,109 @@
+#include "viewer/offscreen.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "lod/soar/pick.hpp"
+#include "viewer/camera.hpp"
+#include "viewer/gl_check.hpp"
+#include "viewer/gl_context_egl.hpp"
+#include "viewer/mesher.hpp"
+#include "viewer/renderer.hpp"
+
+namespace relevo::viewer {
+
+namespace {
+
+class Stopwatch {
+  public:
+    double ms() const {
+        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+  private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Largest side of what is drawn at once: with 8 samples by twice the width, 0.3 GiB.
+int tile_side(int samples) {
+    return samples == 1 ? 4096 : 2048;
+}
+
+}  // namespace
+
+bool ground_must_show(const lod::Terrain& terrain, const lod::View& view, const ViewState& state) {
+    const auto hits = [&](double x, double y) {
+        return lod::pick(terrain, view.eye(), view.ray({x, y}), state.exaggeration).has_value();
+    };
+    const int width = view.camera().width;
+    const int height = view.camera().height;
+    const double reach = 1 + 2 * (state.method == Method::full ? 0 : state.tau_px);
+    for (int i = 0; i < 9; ++i) {
+        for (int k = 0; k < 9; ++k) {
+            const double x = width * (i + 0.5) / 9;
+            const double y = height * (k + 0.5) / 9;
+            const bool inside = x >= reach && y >= reach && x <= width - reach && y <= height - reach;
+            if (inside && hits(x, y) && hits(x - reach, y) && hits(x + reach, y) && hits(x, y - reach) &&
+                hits(x, y + reach)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+Result<FinishedPicture> draw_picture(const lod::Terrain& terrain, const EyeHeight& heights,
+                                     const ViewState& state, const PictureRequest& request) {
+    const auto context = OffscreenContext::create();
+    if (!context) return context.error();
+    auto renderer = Renderer::create(terrain);
+    if (!renderer) return renderer.error();
+    const int side = tile_side(request.samples);
+    const auto target =
+        RenderTarget::create(std::min(request.width, side), std::min(request.height, side), request.samples);
+    if (!target) return target.error();
+
+    const lod::View view(camera_of(state, heights, request.width, request.height));
+    const DrawSettings settings{.layer = state.layer,
+                                .wireframe = state.wireframe,
+                                .exaggeration = state.exaggeration,
+                                .sun = state.sun,
+                                .background = request.background};
+    FinishedPicture made{Picture(request.width, request.height), {}};
+    PictureFigures& figures = made.figures;
+    figures.gl = gl_description();
+
+    // Once for nothing: what is measured below shall not be the making of buffers and the compiling of
+    // shaders.
+    Mesher mesher(terrain);
+    renderer->upload(mesher.mesh(view, state));
+    if (auto done = renderer->draw(view, settings, *target, {}, false); !done) return done.error();
+    gl_finish();
+
+    const Stopwatch frame;
+    const lod::Mesh& mesh = mesher.mesh(view, state);
+    figures.refine_ms = frame.ms();
+    figures.triangles = mesh.triangles();
+    renderer->upload(mesh);
+    bool terrain_seen = false;
+    for (int y = 0; y < request.height; y += target->height()) {
+        for (int x = 0; x < request.width; x += target->width()) {
+            const auto drawn = renderer->draw(view, settings, *target, {x, y}, true);
+            if (!drawn) return drawn.error();
+            figures.draw_calls += drawn->draw_calls;
+            terrain_seen = terrain_seen || drawn->terrain_seen;
+            target->read_into(made.picture, x, y);
+        }
+    }
+    figures.frame_ms = frame.ms();
+    if (auto done = gl_check("reading the picture"); !done) return done.error();
+    if (!terrain_seen && ground_must_show(terrain, view, state)) {
+        return Error{ErrorKind::internal, "the ground is in view, but not one of its pixels was drawn (" +
+                                              figures.gl + "); nothing was written"};
+    }
+    if (request.measure_error) figures.error = lod::measure_error(terrain, view, mesh, state.exaggeration);
+    return made;
+}
+
+}  // namespace relevo::viewer

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "geo/result.hpp"
+#include "lod/oracle.hpp"
+#include "lod/terrain.hpp"
+#include "viewer/eye_height.hpp"
+#include "viewer/picture.hpp"
+#include "viewer/view_state.hpp"
+
+namespace relevo::viewer {
+
+struct PictureRequest {
+    int width = 1280;  ///< 1 to kLargestPicture
+    int height = 720;
+    int samples = 4;                                 ///< 1, 4 or 8 a pixel
+    std::optional<std::array<float, 3>> background;  ///< flat, 0 to 1, instead of sky and haze
+    bool measure_error = false;
+};
+inline constexpr int kLargestPicture = 16384;
+
+struct PictureFigures {
+    std::uint64_t triangles = 0;
+    int draw_calls = 0;
+    double refine_ms = 0;  ///< of the mesh, buffers warm
+    double frame_ms = 0;   ///< refinement, upload and drawing to the last pixel, programs compiled
+    std::optional<lod::MeasuredError> error;  ///< only where asked for and something is in view
+    std::string gl;                           ///< what drew
+};
+
+struct FinishedPicture {
+    Picture picture;
+    PictureFigures figures;
+};
+
+/// Draws one view off-screen, whole or not at all: fails where OpenGL reports an error, or where ground that
+/// is in view left no pixel. A picture of any size is drawn in tiles of bounded memory.
+Result<FinishedPicture> draw_picture(const lod::Terrain& terrain, const EyeHeight& heights,
+                                     const ViewState& view, const PictureRequest& request);
+
+/// Is there ground in view that must have left pixels? It is asked of the full data, by rays: one counts
+/// where its neighbours as far away as the mesh may be wrong hit the ground too.
+bool ground_must_show(const lod::Terrain& terrain, const lod::View& view, const ViewState& state);
+
+}  // namespace relevo::viewer

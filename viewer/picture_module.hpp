@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace relevo::viewer {
+
+/// The one function of the module that knows OpenImageIO. False on failure, with the reason, zero-terminated,
+/// in `reason`. A C interface, because it is looked up by name.
+using WritePicture = bool (*)(const char* file, int width, int height, const std::uint8_t* rgb,
+                              const char* description, char* reason, std::size_t reason_size);
+inline constexpr const char* kWritePictureName = "relevo_write_picture";
+
+}  // namespace relevo::viewer

@@ -1,0 +1,33 @@
+// What every shader knows of a picture. Directions are in ECEF axes, lengths in metres.
+layout(std140, binding = 0) uniform Frame {
+    mat4 clip_from_offset;  // offsets from the eye to clip space
+    vec4 eye_up;            // the ellipsoid's normal at the eye; w: height of the eye above the base surface
+    vec4 grid;              // last column, last row, 1 / columns, 1 / rows
+    vec4 place;             // west, north, step along columns, step along rows; radians
+    vec4 sun;               // east, north, up where SUN_FIXED is not set, else ECEF; w: daylight at the eye, 0 to 1
+    vec4 surface;           // exaggeration, levels, haze per metre at the sea, unused
+    vec4 ray;               // through the middle of the picture, then its change to the right edge and to the upper edge
+    vec4 ray_right;
+    vec4 ray_up;
+    vec4 eye_scaled;        // where the base surface is the unit sphere; w: squared length - 1, rounded from double
+    vec4 base_axes;         // 1 / semi-axes of the base surface, times the semi-major one
+}
+frame;
+
+const vec3 kHazeColour = vec3(0.74, 0.80, 0.86);
+const vec3 kZenithColour = vec3(0.24, 0.45, 0.72);
+const vec3 kSpaceColour = vec3(0.010, 0.012, 0.030);
+const vec3 kGroundColour = vec3(0.36, 0.38, 0.36);  // where there is no data
+const float kAirScale = 8000.0;                     // of the air's density with height
+const float kGlowScale = 14000.0;                   // of what the eye sees of it
+
+float dimmed(float daylight) { return mix(0.10, 1.0, daylight); }
+
+// Part of the light that haze took over on a straight way through air that thins with height.
+float haze(float way, float from_height, float to_height) {
+    float from = exp(-max(from_height, 0.0) / kAirScale);
+    float to = exp(-max(to_height, 0.0) / kAirScale);
+    float rise = (max(to_height, 0.0) - max(from_height, 0.0)) / kAirScale;
+    float air = abs(rise) < 1e-2 ? 0.5 * (from + to) : (from - to) / rise;
+    return 1.0 - exp(-way * air * frame.surface.z);
+}

@@ -1,0 +1,8 @@
+// One triangle over the whole picture, infinitely far.
+out vec3 ray;
+
+void main() {
+    vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+    gl_Position = vec4(corner, 0.0, 1.0);
+    ray = frame.ray.xyz + corner.x * frame.ray_right.xyz + corner.y * frame.ray_up.xyz;
+}

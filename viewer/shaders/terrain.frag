@@ -1,0 +1,96 @@
+layout(binding = 0) uniform sampler2D posts;   // east and north of the normal, H from -1 to 1, validity; all times it
+layout(binding = 1) uniform usampler2D cells;  // 0 where a cell has a void corner
+layout(binding = 2) uniform sampler2D ramp;    // the layer's colours
+
+#ifdef WIREFRAME
+in WiredSurface {
+#else
+in Surface {
+#endif
+    CENTROID vec2 grid;
+    CENTROID float haze;
+    flat float level;
+#ifdef SUN_FIXED
+    CENTROID vec3 sun;
+#endif
+#ifdef WIREFRAME
+    CENTROID vec3 barycentric;
+#endif
+}
+surface;
+
+out vec4 colour;
+
+vec3 ramp_colour(float at) { return texture(ramp, vec2(at, 0.5)).rgb; }
+
+// Coarse to fine: a polynomial fit of the Turbo colour map (A. Mikhailov, Google, 2019).
+vec3 level_colour(float level) {
+    float x = clamp(level / (2.0 * frame.surface.y), 0.0, 1.0);
+    vec4 v4 = vec4(1.0, x, x * x, x * x * x);
+    vec2 v2 = v4.zw * v4.z;
+    vec3 mapped = vec3(dot(v4, vec4(0.13572138, 4.61539260, -42.66032258, 132.13108234)) +
+                           dot(v2, vec2(-152.94239396, 59.28637943)),
+                       dot(v4, vec4(0.09140261, 2.19418839, 4.84296658, -14.18503333)) +
+                           dot(v2, vec2(4.27729857, 2.82956604)),
+                       dot(v4, vec4(0.10667330, 12.64194608, -60.58204836, 110.36276771)) +
+                           dot(v2, vec2(-89.90310912, 27.34824973)));
+    return clamp(mapped, 0.0, 1.0);
+}
+
+#ifdef WIREFRAME
+// 1 on an edge of the triangle, 0 half a line's width beside it.
+float on_edge(vec3 barycentric) {
+    vec3 across = dFdx(barycentric);
+    vec3 along = dFdy(barycentric);
+    vec3 pixels = barycentric / max(sqrt(across * across + along * along), vec3(1e-6));
+    return 1.0 - smoothstep(0.35, 1.05, min(pixels.x, min(pixels.y, pixels.z)));
+}
+#endif
+
+void main() {
+    vec2 in_texture = (surface.grid + 0.5) * frame.grid.zw;
+#ifdef VOIDS
+    vec4 here = texture(posts, in_texture);  // before the discard: its mip level needs the neighbours
+    ivec2 cell = clamp(ivec2(surface.grid), ivec2(0), textureSize(cells, 0) - 1);
+    if (texelFetch(cells, cell, 0).r == 0u) discard;
+    here /= max(here.a, 1e-3);
+#else
+    vec4 here = texture(posts, in_texture);
+#endif
+    vec3 true_normal = vec3(here.xy, sqrt(max(1.0 - dot(here.xy, here.xy), 1e-6)));
+    vec3 normal = normalize(vec3(true_normal.xy * frame.surface.x, true_normal.z));
+#ifdef SUN_FIXED
+    vec3 sun = normalize(surface.sun);
+    float day = dimmed(smoothstep(-0.10, 0.15, sun.z));
+#else
+    vec3 sun = frame.sun.xyz;
+    float day = dimmed(frame.sun.w);
+#endif
+    float lit = max(dot(normal, sun), 0.0);
+    float relief = (0.26 + 0.12 * normal.z) * day + 0.66 * lit;
+
+#if LAYER == 0  // hypsometric
+    vec3 shown = ramp_colour(0.5 + 0.5 * here.z) * relief;
+    float hazed = surface.haze;
+#elif LAYER == 1  // hillshade
+    vec3 shown = vec3(0.06 * day + 0.94 * lit);
+    float hazed = surface.haze;
+#elif LAYER == 2  // slope: of the true ground, whatever the exaggeration; its colours are values and take no haze
+    float slope = degrees(acos(clamp(true_normal.z, 0.0, 1.0)));
+    vec3 shown = ramp_colour(slope / 60.0);
+    float hazed = 0.0;
+#elif LAYER == 3  // lod
+    vec3 shown = mix(vec3(0.5), level_colour(surface.level), 0.75) * (0.35 + 0.65 * relief);
+    float hazed = 0.0;
+#endif
+    if (!gl_FrontFacing) shown = vec3(0.20, 0.17, 0.15) * (0.5 + 0.5 * relief);  // the ground from below
+#ifdef WIREFRAME
+    vec3 line = level_colour(surface.level);
+    shown = mix(shown, line, 0.85 * on_edge(surface.barycentric));
+    hazed *= 0.5;
+#endif
+#ifdef SKY
+    shown = mix(shown, kHazeColour * day, hazed);
+#endif
+    colour = vec4(min(shown, vec3(1.0)), 1.0);
+}

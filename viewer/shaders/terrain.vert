@@ -1,0 +1,49 @@
+layout(location = 0) in vec3 offset;  // from the eye, ECEF axes
+layout(location = 1) in uvec2 post;   // column and row in the padded grid
+
+out gl_PerVertex {
+    vec4 gl_Position;
+    float gl_ClipDistance[2];
+};
+
+out Surface {
+    CENTROID vec2 grid;  // column and row
+    CENTROID float haze;
+    flat float level;
+#ifdef SUN_FIXED
+    CENTROID vec3 sun;  // in local east, north, up: it turns as the ground curves
+#endif
+}
+surface;
+
+// Depth of the vertex in the bisection: 0 for the corners, 2 n for the last posts.
+float bisection_level(uvec2 at) {
+    uint both = at.x | at.y;
+    float levels = frame.surface.y;
+    if (both == 0u) return 0.0;
+    int zeros = findLSB(both);
+    bool middle_of_square = ((at.x & at.y) >> zeros & 1u) == 1u;
+    return max(0.0, 2.0 * (levels - float(zeros)) - (middle_of_square ? 1.0 : 0.0));
+}
+
+void main() {
+    gl_Position = frame.clip_from_offset * vec4(offset, 1.0);
+    vec2 at = vec2(post);
+    // Padding lies east and south of the data.
+    gl_ClipDistance[0] = frame.grid.x - at.x;
+    gl_ClipDistance[1] = frame.grid.y - at.y;
+    surface.grid = at;
+    surface.level = bisection_level(post);
+
+    float way = length(offset);
+    float rise = dot(offset, frame.eye_up.xyz);
+    float sinking = (way * way - rise * rise) / (2.0 * 6371000.0);
+    surface.haze = haze(way, frame.eye_up.w, frame.eye_up.w + rise + sinking);
+#ifdef SUN_FIXED
+    float lat = frame.place.y - at.y * frame.place.w;
+    float lon = frame.place.x + at.x * frame.place.z;
+    vec3 east = vec3(-sin(lon), cos(lon), 0.0);
+    vec3 up = vec3(cos(lat) * cos(lon), cos(lat) * sin(lon), sin(lat));
+    surface.sun = vec3(dot(frame.sun.xyz, east), dot(frame.sun.xyz, cross(up, east)), dot(frame.sun.xyz, up));
+#endif
+}

@@ -1,0 +1,167 @@
+#include "viewer/terrain_textures.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "viewer/gl_check.hpp"
+
+namespace relevo::viewer {
+
+namespace {
+
+using Heights = lod::Raster<float>;
+using Texel = std::array<std::int16_t, 4>;
+
+std::int16_t snorm(double value) {
+    return static_cast<std::int16_t>(std::lround(std::clamp(value, -1.0, 1.0) * 32767));
+}
+
+/// Rise of the surface from `before` to `after` through `here`, metres a metre; a void on one side leaves the
+/// other.
+double slope(float before, float here, float after, double spacing) {
+    if (!(spacing > 1e-6)) return 0;  // a pole's row is one point
+    const bool has_before = !std::isnan(before);
+    const bool has_after = !std::isnan(after);
+    if (has_before && has_after) return (after - before) / (2 * spacing);
+    if (has_after) return (after - here) / spacing;
+    return has_before ? (here - before) / spacing : 0;
+}
+
+struct HeightRange {
+    double lowest = std::numeric_limits<double>::infinity();
+    double highest = -std::numeric_limits<double>::infinity();
+    bool has_voids = false;
+};
+
+HeightRange height_range(const Heights& heights) {
+    HeightRange range;
+    for (const float H : heights.samples()) {
+        if (std::isnan(H)) {
+            range.has_voids = true;
+        } else {
+            range.lowest = std::min(range.lowest, static_cast<double>(H));
+            range.highest = std::max(range.highest, static_cast<double>(H));
+        }
+    }
+    return range;
+}
+
+void fill_row(const lod::Terrain& terrain, const HeightRange& range, int row, Texel* out) {
+    const Heights& heights = terrain.heights();
+    const auto spacing = terrain.frame().spacing(row);
+    const float none = std::numeric_limits<float>::quiet_NaN();
+    const float* here = heights.row(row);
+    const float* north = row > 0 ? heights.row(row - 1) : nullptr;
+    const float* south = row + 1 < heights.rows() ? heights.row(row + 1) : nullptr;
+    const double middle = 0.5 * (range.lowest + range.highest);
+    const double half_range = std::max(0.5 * (range.highest - range.lowest), 1e-6);
+    for (int column = 0; column < heights.columns(); ++column) {
+        const float H = here[column];
+        if (std::isnan(H)) {
+            out[column] = {0, 0, 0, 0};
+            continue;
+        }
+        const double east = slope(column > 0 ? here[column - 1] : none, H,
+                                  column + 1 < heights.columns() ? here[column + 1] : none, spacing.east_m);
+        const double up_north = slope(south != nullptr ? south[column] : none, H,
+                                      north != nullptr ? north[column] : none, spacing.north_m);
+        const double length = std::sqrt(1 + east * east + up_north * up_north);
+        out[column] = {snorm(-east / length), snorm(-up_north / length), snorm((H - middle) / half_range),
+                       32767};
+    }
+}
+
+/// A texture's rows are made and handed over in strips of this many, so that the copy beside the texture
+/// stays small.
+constexpr int kStrip = 256;
+
+void fill_posts(const lod::Terrain& terrain, const HeightRange& range, GlName texture) {
+    const int columns = terrain.heights().columns();
+    const int rows = terrain.heights().rows();
+    std::vector<Texel> strip(static_cast<std::size_t>(columns) * kStrip);
+    for (int top = 0; top < rows; top += kStrip) {
+        const int count = std::min(kStrip, rows - top);
+        tbb::parallel_for(0, count, [&](int i) {
+            fill_row(terrain, range, top + i,
+                     strip.data() + static_cast<std::size_t>(i) * static_cast<std::size_t>(columns));
+        });
+        glTextureSubImage2D(texture, 0, 0, top, columns, count, GL_RGBA, GL_SHORT, strip.data());
+    }
+}
+
+void fill_cells(const Heights& heights, GlName texture) {
+    const int columns = std::max(heights.columns() - 1, 1);
+    const int rows = std::max(heights.rows() - 1, 1);
+    std::vector<std::uint8_t> strip(static_cast<std::size_t>(columns) * kStrip);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    for (int top = 0; top < rows; top += kStrip) {
+        const int count = std::min(kStrip, rows - top);
+        for (int i = 0; i < count; ++i) {
+            const float* north = heights.row(top + i);
+            const float* south = heights.row(std::min(top + i + 1, heights.rows() - 1));
+            for (int column = 0; column < columns; ++column) {
+                const int next = std::min(column + 1, heights.columns() - 1);
+                const bool whole = !std::isnan(north[column]) && !std::isnan(north[next]) &&
+                                   !std::isnan(south[column]) && !std::isnan(south[next]);
+                strip[static_cast<std::size_t>(i) * static_cast<std::size_t>(columns) +
+                      static_cast<std::size_t>(column)] = whole ? 255 : 0;
+            }
+        }
+        glTextureSubImage2D(texture, 0, 0, top, columns, count, GL_RED_INTEGER, GL_UNSIGNED_BYTE,
+                            strip.data());
+    }
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+}
+
+}  // namespace
+
+Result<TerrainTextures> build_terrain_textures(const lod::Terrain& terrain) {
+    const Heights& heights = terrain.heights();
+    const int columns = heights.columns();
+    const int rows = heights.rows();
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    if (columns > most || rows > most) {
+        return Error{
+            ErrorKind::input,
+            fmt::format(
+                "{} x {} posts are more than this machine's OpenGL can hold in one texture ({} a side); "
+                "import a smaller part with --crop",
+                columns, rows, most)};
+    }
+    const HeightRange range = height_range(heights);
+    const auto larger = static_cast<unsigned>(std::max(columns, rows));
+
+    TerrainTextures textures;
+    textures.posts = GlTexture(create_gl_texture(GL_TEXTURE_2D));
+    const GlName posts = textures.posts.name();
+    glTextureStorage2D(posts, std::bit_width(larger), GL_RGBA16_SNORM, columns, rows);
+    if (auto done = gl_check("making room for the terrain's normals"); !done) return done.error();
+    fill_posts(terrain, range, posts);
+    glGenerateTextureMipmap(posts);
+    glTextureParameteri(posts, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTextureParameteri(posts, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTextureParameteri(posts, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(posts, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+
+    if (range.has_voids) {
+        textures.cells = GlTexture(create_gl_texture(GL_TEXTURE_2D));
+        const GlName cells = textures.cells.name();
+        glTextureStorage2D(cells, 1, GL_R8UI, std::max(columns - 1, 1), std::max(rows - 1, 1));
+        glTextureParameteri(cells, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        glTextureParameteri(cells, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        fill_cells(heights, cells);
+    }
+    if (auto done = gl_check("loading the terrain's normals"); !done) return done.error();
+    return textures;
+}
+
+}  // namespace relevo::viewer

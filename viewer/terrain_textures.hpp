@@ -1,0 +1,25 @@
+#pragma once
+
+#include "geo/result.hpp"
+#include "lod/terrain.hpp"
+#include "viewer/gl_object.hpp"
+
+namespace relevo::viewer {
+
+/// What the terrain's fragments read of the full data, whatever the mesh is: for each post the normal of the
+/// surface with its true proportions, the height, and whether there is one; for each cell whether it may be
+/// drawn.
+///
+/// Normals are central differences over the metric spacing of their row, one-sided beside voids and borders.
+/// All four channels are 16-bit and multiplied by the validity (0 or 1), so that mip levels and filters
+/// average valid posts alone. Eleven bytes a post with mip levels.
+struct TerrainTextures {
+    GlTexture posts;  ///< east and north of the unit normal; H from -1 (lowest) to 1 (highest); validity
+    GlTexture cells;  ///< 8-bit: 0 where one of a cell's corners is void; absent where no post is
+    bool has_voids() const { return static_cast<bool>(cells); }
+};
+
+/// Fails where the data is larger than the driver's textures, or does not fit in its memory.
+Result<TerrainTextures> build_terrain_textures(const lod::Terrain& terrain);
+
+}  // namespace relevo::viewer
