@@ -298,7 +298,7 @@ class Oracle {
                 const double depth = std::abs(p.volume) / sum;
                 Sample& sample = picture[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                                          static_cast<std::size_t>(x)];
-                if (!(depth < sample.depth)) continue;
+                if (!(depth < sample.depth) || depth < View::kNearM) continue;
                 sample.depth = depth;
                 sample.x =
                     (w.x * p.corners[0].column + w.y * p.corners[1].column + w.z * p.corners[2].column) / sum;

@@ -75,7 +75,7 @@ bool View::sees(const glm::dvec3& offset) const {
     for (const glm::dvec3& plane : side_planes_) {
         if (glm::dot(plane, offset) > 0) return false;
     }
-    return depth(offset) > 0;
+    return depth(offset) >= kNearM;
 }
 
 glm::dvec3 View::ray(const glm::dvec2& pixel) const {

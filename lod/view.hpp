@@ -49,7 +49,7 @@ class View {
     glm::dvec2 pixel(const glm::dvec3& offset) const;
     /// Distance along the view direction, metres.
     double depth(const glm::dvec3& offset) const;
-    /// Is the offset inside the picture (and in front of the eye)?
+    /// Is the offset inside the picture (and beyond the near plane)?
     bool sees(const glm::dvec3& offset) const;
     /// Unit direction of the ray through a pixel coordinate.
     glm::dvec3 ray(const glm::dvec2& pixel) const;

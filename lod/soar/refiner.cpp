@@ -71,7 +71,7 @@ class Refinement {
     /// A vertex that is always there, where the data has it.
     RefinedVertex fixed_vertex(const GridPoint& post) {
         const glm::dvec3 position = exact_position(post, terrain_.post(post.column, post.row).H);
-        return {position, position, post, add_to_mesh(position, post)};
+        return {position, position, post, add_to_mesh(position, post), 0};
     }
 
     std::uint32_t add_to_mesh(const glm::dvec3& drawn, const GridPoint& post) {
@@ -114,39 +114,60 @@ class Refinement {
         if (level == deepest_) return emit(left, right, apex);
 
         const GridPoint middle = midpoint(left.post, right.post);
-        const Terrain::Post& post = terrain_.post(middle.column, middle.row);
-        if (post.radius == 0) return;  // nothing valid here
-
-        double error = static_cast<double>(decode(post.error));
-        double radius = static_cast<double>(decode(post.radius));
-        if (exaggeration_ != 1) {
-            const LevelBound& bare = terrain_.level_bounds()[static_cast<std::size_t>(level)];
-            error = exaggeration_ * error + std::abs(exaggeration_ - 1) * bare.sag_m;
-            radius = exaggeration_ * radius + std::abs(exaggeration_ - 1) * bare.radius_m;
-        }
-        const glm::dvec3 exact = exact_position(middle, post.H);
-        if (inside != kInsideAll && is_outside(exact, radius, inside)) return;
-
-        const double active_within = reach_ * error + radius;
-        const double distance2 = glm::dot(exact, exact);
-        if (error == 0 || distance2 >= active_within * active_within) return emit(left, right, apex);
-
-        const RefinedVertex* known = cache_.find(middle);
         RefinedVertex vertex;
-        if (known != nullptr) {
+        if (const RefinedVertex* known = cache_.find(middle)) {
             vertex = *known;
+            if (inside != kInsideAll && is_outside(vertex.exact, vertex.radius, inside)) return;
         } else {
-            glm::dvec3 drawn = exact;
-            if (morph_) {
-                const glm::dvec3 surplus = exact - 0.5 * (left.exact + right.exact);
-                const double t = morph_factor(std::sqrt(distance2), error, radius);
-                drawn = 0.5 * (left.drawn + right.drawn) + t * surplus;
-            }
-            vertex = {exact, drawn, middle, add_to_mesh(drawn, middle)};
+            const Candidate candidate = look_at(middle, level);
+            if (candidate.is_empty) return;
+            if (inside != kInsideAll && is_outside(candidate.exact, candidate.radius, inside)) return;
+            if (!candidate.is_active) return emit(left, right, apex);
+            vertex = draw(candidate, middle, left, right);
             cache_.keep(vertex);
         }
         split(apex, left, vertex, level + 1, inside);
         split(right, apex, vertex, level + 1, inside);
+    }
+
+    /// A vertex before it is known whether it is drawn.
+    struct Candidate {
+        glm::dvec3 exact;  // relative to the eye
+        double error;
+        double radius;
+        double distance2;
+        bool is_empty;   // nothing valid in its diamond
+        bool is_active;  // its error on the screen exceeds the tolerance
+    };
+
+    Candidate look_at(const GridPoint& middle, int level) const {
+        const Terrain::Post& post = terrain_.post(middle.column, middle.row);
+        Candidate candidate{};
+        candidate.is_empty = post.radius == 0;
+        if (candidate.is_empty) return candidate;
+        candidate.error = static_cast<double>(decode(post.error));
+        candidate.radius = static_cast<double>(decode(post.radius));
+        if (exaggeration_ != 1) {
+            const LevelBound& bare = terrain_.level_bounds()[static_cast<std::size_t>(level)];
+            candidate.error = exaggeration_ * candidate.error + std::abs(exaggeration_ - 1) * bare.sag_m;
+            candidate.radius = exaggeration_ * candidate.radius + std::abs(exaggeration_ - 1) * bare.radius_m;
+        }
+        candidate.exact = exact_position(middle, post.H);
+        candidate.distance2 = glm::dot(candidate.exact, candidate.exact);
+        const double active_within = reach_ * candidate.error + candidate.radius;
+        candidate.is_active = candidate.error > 0 && candidate.distance2 < active_within * active_within;
+        return candidate;
+    }
+
+    RefinedVertex draw(const Candidate& candidate, const GridPoint& post, const RefinedVertex& left,
+                       const RefinedVertex& right) {
+        glm::dvec3 drawn = candidate.exact;
+        if (morph_) {
+            const glm::dvec3 surplus = candidate.exact - 0.5 * (left.exact + right.exact);
+            const double t = morph_factor(std::sqrt(candidate.distance2), candidate.error, candidate.radius);
+            drawn = 0.5 * (left.drawn + right.drawn) + t * surplus;
+        }
+        return {candidate.exact, drawn, post, add_to_mesh(drawn, post), candidate.radius};
     }
 
     bool is_padding(const GridPoint& a, const GridPoint& b, const GridPoint& c) const {

@@ -16,6 +16,7 @@ struct RefinedVertex {
     glm::dvec3 drawn;  ///< where the morph draws it
     GridPoint post;
     std::uint32_t index = 0;  ///< in the mesh
+    double radius = 0;        ///< of its sphere, metres
 };
 
 /// Finds the vertices that were made a short while ago: every inner vertex is reached from the triangles on

@@ -53,6 +53,7 @@ TEST(View, SeesWhatLiesBetweenItsSidePlanes) {
     EXPECT_FALSE(view.sees(view.ray({640, -0.01})));
     EXPECT_FALSE(view.sees(view.ray({640, 720.01})));
     EXPECT_FALSE(view.sees(-view.forward()));
+    EXPECT_FALSE(view.sees(0.0001 * view.forward())) << "before the near plane";
 }
 
 // The projection matrix is OpenGL's: its result must land on the pixel that View::pixel computes in double.
