@@ -98,11 +98,13 @@ Result<void> Folder::make_folder(const std::string& name) const {
     return {};
 }
 
-Result<void> Folder::sync(const std::string& name) const {
-    const Descriptor folder = open_at(descriptor_.number(), name, O_RDONLY | O_DIRECTORY);
-    if (!folder || retry_interrupted([&] { return ::fsync(folder.number()); }) != 0) {
-        return cannot_write(path_ / name);
-    }
+Result<void> Folder::sync_all() const {
+    if (retry_interrupted([&] { return ::syncfs(descriptor_.number()); }) != 0) return cannot_write(path_);
+    return {};
+}
+
+Result<void> Folder::sync_names() const {
+    if (retry_interrupted([&] { return ::fsync(descriptor_.number()); }) != 0) return cannot_write(path_);
     return {};
 }
 

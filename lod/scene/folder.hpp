@@ -40,14 +40,17 @@ class Folder {
     /// A file's contents. `file` is relative to the folder. Fails with ErrorKind::damaged.
     Result<std::vector<std::byte>> read(const std::string& file) const;
 
-    /// Writes a new file and syncs its contents to disk (its name needs sync()). Fails with
-    /// ErrorKind::internal.
+    /// Writes a new file; sync_all() brings it to the disk. Fails with ErrorKind::internal.
     Result<void> write(const std::string& file, std::span<const std::byte> bytes) const;
 
     Result<void> make_folder(const std::string& name) const;
 
-    /// Syncs the names in a folder of this one to disk ("." is itself).
-    Result<void> sync(const std::string& name = ".") const;
+    /// Brings everything written so far on this file system to the disk, files and names. One call for hundreds of
+    /// files: an fsync of each took 25 ms.
+    Result<void> sync_all() const;
+
+    /// Brings the names in this folder to the disk.
+    Result<void> sync_names() const;
 
     /// Readers mark a folder as in use so that no writer deletes it under them; the mark goes with the last
     /// of them.

@@ -53,17 +53,17 @@ SourceInfo source_from(JsonFields& fields) {
     return source;
 }
 
-nlohmann::json to_json(const BlockInfo& block) {
-    return {{"column", block.column},
-            {"row", block.row},
-            {"file", block.file},
-            {"sha256", block.sha256},
-            {"bytes", block.bytes}};
+nlohmann::json file_to_json(const BlockInfo& block) {
+    return {{"file", block.file}, {"sha256", block.sha256}, {"bytes", block.bytes}};
 }
 
 nlohmann::json to_json(const std::vector<BlockInfo>& blocks) {
     nlohmann::json json = nlohmann::json::array();
-    for (const BlockInfo& block : blocks) json.push_back(to_json(block));
+    for (const BlockInfo& block : blocks) {
+        json.push_back(file_to_json(block));
+        json.back()["column"] = block.column;
+        json.back()["row"] = block.row;
+    }
     return json;
 }
 
@@ -102,6 +102,7 @@ nlohmann::json to_json(const geo::GridFrame& frame) {
 geo::GridFrame frame_from(JsonFields fields) {
     geo::GridFrame frame;
     if (fields.text("kind") != to_string(geo::FrameKind::geographic)) fields.wrong("kind", "is unknown");
+    if (fields.text("step_unit") != step_unit(frame.kind)) fields.wrong("step_unit", "does not fit the kind");
     frame.west = fields.number("west", -180, 180);
     frame.north = fields.number("north", -90 - 1e-9, 90 + 1e-9);
     frame.step_x = fields.number("step_x", 1e-9, 360);
@@ -235,7 +236,7 @@ nlohmann::json to_json(const SceneInfo& info) {
             {"block_side", SceneInfo::kBlockSide},
             {"heights", to_json(info.heights)},
             {"metrics", to_json(info.metrics)},
-            {"undulation", info.undulation.file.empty() ? nlohmann::json() : to_json(info.undulation)}};
+            {"undulation", info.undulation.file.empty() ? nlohmann::json() : file_to_json(info.undulation)}};
 }
 
 Result<SceneInfo> scene_info_from_json(const nlohmann::json& json) {

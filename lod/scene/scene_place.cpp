@@ -186,7 +186,7 @@ Result<void> ScenePlace::take() {
     Result<Folder> parent = Folder::open(target_.parent_path());
     if (!parent) return parent.error();
     // From here on the hidden name, if there still is something, is the scene that was replaced.
-    return parent->sync();
+    return parent->sync_names();
 }
 
 }  // namespace relevo::lod

@@ -206,9 +206,7 @@ Result<void> SceneWriter::commit(SceneInfo info) {
     const std::string mosaic = mosaic_text(info);
     if (auto done = folder.write(kMosaicFile, std::as_bytes(std::span(mosaic))); !done) return done;
     if (auto done = folder.write(kSceneFile, std::as_bytes(std::span(text))); !done) return done;
-    for (const char* name : {kHeightsFolder, kMetricsFolder, "."}) {
-        if (auto done = folder.sync(name); !done) return done;
-    }
+    if (auto done = folder.sync_all(); !done) return done;
     return state_->place.take();
 }
 

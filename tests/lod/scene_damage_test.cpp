@@ -1,0 +1,230 @@
+// Nothing that happens to a scene's files is taken for data, and none of it crashes: each is an error that
+// names the file.
+
+#include <random>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "lod/scene/scene_files.hpp"
+#include "tests/lod/scratch_scene.hpp"
+
+namespace relevo::test {
+namespace {
+
+namespace fs = std::filesystem;
+using lod::Scene;
+
+/// Reads everything; the first error.
+Result<void> read_all(const fs::path& path) {
+    const auto scene = Scene::open(path);
+    if (!scene) return scene.error();
+    if (const auto heights = scene->read_all_heights(); !heights) return heights.error();
+    if (const auto metrics = scene->read_all_metrics(); !metrics) return metrics.error();
+    return {};
+}
+
+void expect_error(const Result<void>& result, ErrorKind kind, const std::string& part) {
+    ASSERT_FALSE(result) << part;
+    EXPECT_EQ(result.error().kind, kind) << result.error().message;
+    EXPECT_NE(result.error().message.find(part), std::string::npos) << result.error().message;
+}
+
+class SceneDamage : public testing::Test {
+  protected:
+    void SetUp() override { ASSERT_TRUE(write_scene(made_up_scene(600, 40), path_)); }
+
+    SceneFolder folder_;
+    fs::path path_ = folder_ / "a.relevo";
+    fs::path json_ = path_ / "scene.json";
+};
+
+TEST_F(SceneDamage, NoSuchPath) {
+    expect_error(read_all(folder_ / "b.relevo"), ErrorKind::input, "b.relevo");
+}
+
+TEST_F(SceneDamage, AFile) {
+    replace(folder_ / "file", "x");
+    expect_error(read_all(folder_ / "file"), ErrorKind::input, "file");
+}
+
+TEST_F(SceneDamage, AFolderThatIsNoScene) {
+    expect_error(read_all(folder_.path()), ErrorKind::input, "is not a scene");
+}
+
+TEST_F(SceneDamage, EveryBlockMissingIsNamed) {
+    std::vector<std::string> files;
+    for (const auto& [name, text] : all_files(path_)) files.push_back(name);
+    ASSERT_EQ(files.size(),
+              2U + 1 + 1 + 3);  // 2 blocks of heights, 1 of metrics, the grid, the JSON, the VRT
+    for (const std::string& file : files) {
+        if (file == "heights.vrt" || file == "scene.json") continue;
+        const std::string text = contents(path_ / file);
+        fs::remove(path_ / file);
+        expect_error(read_all(path_), ErrorKind::damaged, file);
+        replace(path_ / file, text);
+    }
+    EXPECT_TRUE(read_all(path_));
+}
+
+TEST_F(SceneDamage, AnyBitFlippedAnywhereIsFound) {
+    std::mt19937 random(20240501);
+    for (const auto& [file, text] : all_files(path_)) {
+        for (int i = 0; i < 40; ++i) {
+            std::string flipped = text;
+            const auto byte = std::uniform_int_distribution<std::size_t>(0, text.size() - 1)(random);
+            flipped[byte] = static_cast<char>(flipped[byte] ^ (1 << (i % 8)));
+            replace(path_ / file, flipped);
+            const auto scene = Scene::open(path_);
+            const bool found = !scene || !scene->verify().empty();
+            // White space in the JSON carries nothing; everything else does.
+            const bool same = file == "scene.json" &&
+                              nlohmann::json::parse(flipped, nullptr, false) == nlohmann::json::parse(text);
+            EXPECT_TRUE(found || same) << file << " byte " << byte << " bit " << i % 8;
+        }
+        replace(path_ / file, text);
+    }
+}
+
+TEST_F(SceneDamage, EveryFileCutShortIsFound) {
+    for (const auto& [file, text] : all_files(path_)) {
+        for (const double part : {0.0, 0.3, 0.9, 0.999}) {
+            replace(path_ / file,
+                    text.substr(0, static_cast<std::size_t>(part * static_cast<double>(text.size()))));
+            const auto scene = Scene::open(path_);
+            if (scene) {
+                const auto messages = scene->verify();
+                ASSERT_EQ(messages.size(), 1U) << file;
+                EXPECT_NE(messages[0].find(file), std::string::npos) << messages[0];
+            } else {
+                EXPECT_EQ(scene.error().kind, ErrorKind::damaged);
+                EXPECT_NE(scene.error().message.find(file), std::string::npos) << scene.error().message;
+            }
+        }
+        replace(path_ / file, text);
+    }
+}
+
+TEST_F(SceneDamage, VerifyNamesEveryDamagedBlock) {
+    replace(path_ / "heights/r0000-c0001.tif", "x");
+    fs::remove(path_ / "metrics/r0000-c0000.tif");
+    const auto scene = Scene::open(path_);
+    ASSERT_TRUE(scene);
+    const auto messages = scene->verify();
+    ASSERT_EQ(messages.size(), 2U);
+    EXPECT_NE(messages[0].find("heights/r0000-c0001.tif"), std::string::npos);
+    EXPECT_NE(messages[1].find("metrics/r0000-c0000.tif"), std::string::npos);
+}
+
+TEST_F(SceneDamage, ANewerFormatIsNotCalledDamage) {
+    auto json = nlohmann::json::parse(contents(json_));
+    json["format_version"] = 99;
+    json.erase("frame");
+    replace(json_, json.dump());
+    expect_error(read_all(path_), ErrorKind::input, "newer Relevo");
+}
+
+TEST_F(SceneDamage, ChangedByHandIsFound) {
+    auto json = nlohmann::json::parse(contents(json_));
+    json["frame"]["west"] = -104.0;
+    replace(json_, json.dump());
+    expect_error(read_all(path_), ErrorKind::damaged, "checksum");
+}
+
+TEST_F(SceneDamage, AFolderInPlaceOfABlock) {
+    fs::remove(path_ / "undulation.tif");
+    fs::create_directory(path_ / "undulation.tif");
+    expect_error(read_all(path_), ErrorKind::damaged, "undulation.tif");
+}
+
+/// Values that pass for JSON but make no sense. The checksum is not asked here: it would hide them.
+TEST(SceneInfoJson, NonsenseIsRefused) {
+    const SceneFolder folder;
+    ASSERT_TRUE(write_scene(made_up_scene(600, 40), folder / "a.relevo"));
+    const auto good = nlohmann::json::parse(contents(folder / "a.relevo/scene.json"));
+    ASSERT_TRUE(lod::scene_info_from_json(good));
+
+    const auto huge = nlohmann::json::parse("1e400", nullptr, false);  // discarded by the parser
+    EXPECT_TRUE(huge.is_discarded());
+    const std::pair<const char*, const char*> edits[] = {{"/format_version", "0"},
+                                                         {"/format_version", "\"1\""},
+                                                         {"/format_version", "-1"},
+                                                         {"/frame", "[]"},
+                                                         {"/frame/kind", "\"toroidal\""},
+                                                         {"/frame/west", "1e300"},
+                                                         {"/frame/west", "null"},
+                                                         {"/frame/north", "91"},
+                                                         {"/frame/step_x", "0"},
+                                                         {"/frame/step_x", "-1"},
+                                                         {"/frame/step_y", "100"},
+                                                         {"/frame/columns", "0"},
+                                                         {"/frame/columns", "-5"},
+                                                         {"/frame/columns", "4294967297"},
+                                                         {"/frame/columns", "18446744073709551615"},
+                                                         {"/frame/columns", "600.5"},
+                                                         {"/frame/rows", "99999999"},
+                                                         {"/frame/rows", "39"},
+                                                         {"/vertical_datum", "\"navd88\""},
+                                                         {"/vertical_assumed", "1"},
+                                                         {"/height_type", "\"int8\""},
+                                                         {"/height_min_m", "1e9"},
+                                                         {"/height_max_m", "-5"},
+                                                         {"/valid_posts", "5"},
+                                                         {"/void_posts", "1e3"},
+                                                         {"/resampling", "null"},
+                                                         {"/resampling/rms_m", "-1"},
+                                                         {"/sources", "{}"},
+                                                         {"/sources/0", "7"},
+                                                         {"/sources/0/columns", "\"many\""},
+                                                         {"/block_side", "256"},
+                                                         {"/heights", "[]"},
+                                                         {"/heights/0/column", "1"},
+                                                         {"/heights/1/column", "2"},
+                                                         {"/heights/0/file", "\"../../etc/passwd\""},
+                                                         {"/heights/0/file", "\"/etc/passwd\""},
+                                                         {"/heights/0/bytes", "-1"},
+                                                         {"/metrics/0/row", "1"},
+                                                         {"/undulation", "[]"},
+                                                         {"/undulation/file", "\"heights.vrt\""}};
+    for (const auto& [where, value] : edits) {
+        auto json = good;
+        json[nlohmann::json::json_pointer(where)] = nlohmann::json::parse(value);
+        const auto info = lod::scene_info_from_json(json);
+        ASSERT_FALSE(info) << where << " = " << value;
+        EXPECT_EQ(info.error().kind, ErrorKind::damaged);
+    }
+    const nlohmann::json values = good.flatten();
+    for (const auto& item : values.items()) {
+        if (item.key() == "/sha256") continue;  // of the file, which scene_info_from_text asks for
+        auto json = good;
+        const nlohmann::json::json_pointer pointer(item.key());
+        auto& parent = json[pointer.parent_pointer()];
+        if (!parent.is_object()) continue;
+        parent.erase(pointer.back());
+        EXPECT_FALSE(lod::scene_info_from_json(json)) << item.key() << " missing";
+    }
+}
+
+TEST(SceneInfoJson, GoesThroughTextUnchanged) {
+    SceneParts parts = made_up_scene(3, 3);
+    parts.info.frame.west = 0.1 + 0.2;
+    parts.info.frame.step_x = 1.0 / 3600;
+    parts.info.resampling.rms_m = 1e-300;
+    parts.info.sources[0].name = "caf\xe9.tif";  // Latin 1: not UTF-8
+    parts.info.sources[0].operation_accuracy_m = 0.1;
+    for (int row = 0; row < 1; ++row) {
+        lod::BlockInfo block;
+        block.file = lod::block_file_name("heights", 0, row);
+        parts.info.heights.push_back(block);
+    }
+    const std::string text = lod::scene_text(parts.info);
+    const auto info = lod::scene_info_from_text(text);
+    ASSERT_TRUE(info) << info.error().message;
+    EXPECT_EQ(info->frame.west, 0.1 + 0.2);
+    EXPECT_EQ(info->resampling.rms_m, 1e-300);
+    EXPECT_EQ(info->sources[0].operation_accuracy_m, 0.1);
+    EXPECT_EQ(lod::scene_text(*info), text);
+}
+
+}  // namespace
+}  // namespace relevo::test

@@ -1,0 +1,154 @@
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "lod/scene/scene.hpp"
+#include "lod/scene/scene_writer.hpp"
+
+namespace relevo::test {
+
+/// A folder of its own for one test, gone with it.
+class SceneFolder {
+  public:
+    SceneFolder() {
+        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+        const auto name = fmt::format("relevo-{}-{}-{}", test->test_suite_name(), test->name(), getpid());
+        path_ = std::filesystem::temp_directory_path() / name;
+        std::filesystem::remove_all(path_);
+        std::filesystem::create_directories(path_);
+    }
+    SceneFolder(const SceneFolder&) = delete;
+    SceneFolder& operator=(const SceneFolder&) = delete;
+    ~SceneFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+
+    const std::filesystem::path& path() const { return path_; }
+    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+inline std::string contents(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+inline void replace(const std::filesystem::path& file, const std::string& text) {
+    std::ofstream(file, std::ios::binary) << text;
+}
+
+/// Every file below a folder, by its path in it.
+inline std::map<std::string, std::string> all_files(const std::filesystem::path& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        if (entry.is_regular_file()) {
+            files[std::filesystem::relative(entry.path(), folder).string()] = contents(entry.path());
+        }
+    }
+    return files;
+}
+
+/// The same samples, bit by bit (NaN is NaN).
+inline bool same_bits(const lod::Raster<float>& a, const lod::Raster<float>& b) {
+    return a.columns() == b.columns() && a.rows() == b.rows() &&
+           std::equal(a.samples().begin(), a.samples().end(), b.samples().begin(), [](float x, float y) {
+               return std::bit_cast<std::uint32_t>(x) == std::bit_cast<std::uint32_t>(y);
+           });
+}
+
+/// What a scene is made of.
+struct SceneParts {
+    lod::SceneInfo info;
+    lod::Raster<float> heights;
+    lod::MetricRasters metrics;
+    lod::UndulationGrid undulations;
+};
+
+/// A scene of the given size with made-up heights (a void at every 7th post of row 1) and metrics.
+inline SceneParts made_up_scene(int columns, int rows, lod::HeightType type = lod::HeightType::float32) {
+    SceneParts parts;
+    geo::GridFrame& frame = parts.info.frame;
+    frame.west = -105 - 1.0 / 3;
+    frame.north = 37.1;
+    frame.step_x = 1.0 / 1200;
+    frame.step_y = 1.0 / 1200;
+    frame.columns = columns;
+    frame.rows = rows;
+
+    parts.heights = lod::Raster<float>(columns, rows);
+    std::uint64_t voids = 0;
+    for (int row = 0; row < rows; ++row) {
+        for (int column = 0; column < columns; ++column) {
+            float height = static_cast<float>((column * 31 + row * 17) % 4000);
+            if (type == lod::HeightType::float32) height += 0.1F;
+            if (row == 1 && column % 7 == 0) {
+                height = std::numeric_limits<float>::quiet_NaN();
+                ++voids;
+            }
+            parts.heights.at(column, row) = height;
+        }
+    }
+    parts.info.height_type = type;
+    parts.info.height_max_m = 4000.1;
+    parts.info.void_posts = voids;
+    parts.info.valid_posts = static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows) - voids;
+    parts.info.resampling_method = "none";
+    parts.info.resampling.posts = parts.info.valid_posts;
+    lod::SourceInfo source;
+    source.name = "made-up.tif";
+    source.sha256 = std::string(64, 'a');
+    source.crs = "EPSG:4326";
+    source.columns = columns;
+    source.rows = rows;
+    source.step_unit = "degree";
+    parts.info.sources.push_back(source);
+
+    const int side = frame.padded_side();
+    for (auto* raster : {&parts.metrics.bounded, &parts.metrics.incremental, &parts.metrics.radius}) {
+        *raster = lod::Raster<std::uint16_t>(side, side);
+        for (int row = 0; row < rows; ++row) {
+            for (int column = 0; column < columns; ++column) {
+                raster->at(column, row) =
+                    static_cast<std::uint16_t>(column + 3 * row + (raster == &parts.metrics.radius ? 5 : 0));
+            }
+        }
+    }
+    lod::Raster<float> nodes((side + 1) / 2, (side + 1) / 2);
+    for (int row = 0; row < nodes.rows(); ++row) {
+        for (int column = 0; column < nodes.columns(); ++column) {
+            nodes.at(column, row) =
+                -20.0F + 0.25F * static_cast<float>(column) + 0.5F * static_cast<float>(row);
+        }
+    }
+    parts.undulations = lod::UndulationGrid(nodes, 1);
+    return parts;
+}
+
+/// Writes a scene, with its undulations unless its heights are above the ellipsoid.
+inline Result<void> write_scene(const SceneParts& parts, const std::filesystem::path& path,
+                                bool overwrite = false) {
+    auto writer = lod::SceneWriter::create(path, overwrite);
+    if (!writer) return writer.error();
+    if (auto done = writer->write_heights(parts.heights, parts.info.height_type, parts.info.frame); !done)
+        return done;
+    if (auto done = writer->write_metrics(parts.metrics); !done) return done;
+    if (auto done = writer->write_undulations(parts.undulations); !done) return done;
+    return writer->commit(parts.info);
+}
+
+}  // namespace relevo::test

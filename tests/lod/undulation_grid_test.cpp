@@ -1,0 +1,96 @@
+// The coarse grid against the geoid itself, at places that its construction did not look at.
+
+#include "lod/undulation_grid.hpp"
+
+#include <chrono>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace relevo::test {
+namespace {
+
+using lod::UndulationGrid;
+
+geo::GridFrame frame_of(double west, double north, double step, int columns, int rows) {
+    geo::GridFrame frame;
+    frame.west = west;
+    frame.north = north;
+    frame.step_x = step;
+    frame.step_y = step;
+    frame.columns = columns;
+    frame.rows = rows;
+    return frame;
+}
+
+class UndulationGrids : public testing::TestWithParam<geo::GridFrame> {};
+
+TEST_P(UndulationGrids, AgreeWithTheGeoid) {
+    const auto geoid = geo::Geoid::egm96();
+    if (!geoid) GTEST_SKIP() << geoid.error().message;
+    const geo::GridFrame& frame = GetParam();
+    const UndulationGrid grid(*geoid, frame);
+    std::mt19937 random(7);
+    std::uniform_int_distribution<int> column(0, frame.columns - 1);
+    std::uniform_int_distribution<int> row(0, frame.rows - 1);
+    double worst = 0;
+    for (int i = 0; i < 100000; ++i) {
+        const int c = column(random);
+        const int r = row(random);
+        const geo::LatLon place = frame.lat_lon({static_cast<double>(c), static_cast<double>(r)});
+        worst = std::max(worst, std::abs(grid.at(c, r) - geoid->undulation(place).m));
+    }
+    EXPECT_LE(worst, UndulationGrid::kMaxErrorM) << "shift " << grid.shift();
+    RecordProperty("shift", grid.shift());
+
+    // The padding is covered, and is finite.
+    const int last = frame.padded_side() - 1;
+    EXPECT_TRUE(std::isfinite(grid.at(last, last)));
+    EXPECT_TRUE(std::isfinite(grid.at(0, last)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Frames, UndulationGrids,
+    testing::Values(frame_of(-125, 49, 1.0 / 3600, 3601, 3601),  // the most common tile
+                    frame_of(86, 28, 1.0 / 1200, 1201, 1201),    // Everest: the steepest geoid on land
+                    frame_of(78, 8, 1.0 / 1200, 1201, 1201),     // the Indian Ocean's low
+                    frame_of(177, -16, 1.0 / 120, 900, 500),     // across the antimeridian
+                    frame_of(-180, 90, 1.0 / 12, 500, 40),       // at the north pole
+                    frame_of(10, -89, 1.0 / 600, 100, 601),      // at the south pole, padding beyond it
+                    frame_of(3, 54, 1.0 / 120, 720, 480), frame_of(5, 5, 1e-5, 3, 3)));
+
+TEST(UndulationGrid, EveryPostIsANodeWherePostsAreFarApart) {
+    const auto geoid = geo::Geoid::egm96();
+    if (!geoid) GTEST_SKIP() << geoid.error().message;
+    const geo::GridFrame frame = frame_of(-180, 90, 1, 361, 181);
+    const UndulationGrid grid(*geoid, frame);
+    EXPECT_EQ(grid.shift(), 0);
+    for (int column = 0; column < 361; column += 7) {
+        const geo::LatLon place = frame.lat_lon({static_cast<double>(column), 60});
+        // A node is stored as a float: half a step of it at 100 m.
+        EXPECT_NEAR(grid.at(column, 60), geoid->undulation(place).m, 4e-6);
+    }
+}
+
+TEST(UndulationGrid, IsTheBilinearFunctionOfItsNodes) {
+    lod::Raster<float> nodes(3, 3);
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column) {
+            nodes.at(column, row) = static_cast<float>(10 * column + 100 * row + column * row);
+        }
+    }
+    const UndulationGrid grid(nodes, 2);
+    EXPECT_EQ(grid.at(8, 8), 224);
+    EXPECT_EQ(grid.at(4, 4), 111);
+    EXPECT_EQ(grid.at(2, 0), 5);
+    EXPECT_DOUBLE_EQ(grid.at(geo::GridPosition{6, 2}), 10 * 1.5 + 100 * 0.5 + 1.5 * 0.5);
+}
+
+TEST(UndulationGrid, NoneIsZeroEverywhere) {
+    const UndulationGrid none;
+    EXPECT_EQ(none.at(17, 4), 0);
+    EXPECT_EQ(none.at(geo::GridPosition{1e6, -3}), 0);
+}
+
+}  // namespace
+}  // namespace relevo::test
