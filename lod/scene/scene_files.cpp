@@ -1,5 +1,7 @@
 #include "lod/scene/scene_files.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -83,6 +85,15 @@ std::string mosaic_text(const SceneInfo& info) {
             block.file, box.columns, box.rows, type, box.column, box.row);
     }
     return text + "  </VRTRasterBand>\n</VRTDataset>\n";
+}
+
+bool joins_all_blocks(const std::string& mosaic, const SceneInfo& info) {
+    const auto holds = [&](const std::string& part) { return mosaic.find(part) != std::string::npos; };
+    const std::string size =
+        fmt::format("<VRTDataset rasterXSize=\"{}\" rasterYSize=\"{}\"", info.frame.columns, info.frame.rows);
+    return holds(size) && holds("</VRTDataset>") &&
+           std::ranges::all_of(info.heights,
+                               [&](const BlockInfo& block) { return holds(">" + block.file + "<"); });
 }
 
 }  // namespace relevo::lod

@@ -27,4 +27,8 @@ Result<SceneInfo> scene_info_from_text(const std::string& text);
 /// heights.vrt: the blocks of heights as one raster for GDAL and QGIS, by paths relative to it.
 std::string mosaic_text(const SceneInfo& info);
 
+/// Does the text of a heights.vrt still join the scene's blocks? GDAL and QGIS write statistics into it in
+/// their own form, so it need not be mosaic_text; Relevo itself never reads heights through it.
+bool joins_all_blocks(const std::string& mosaic, const SceneInfo& info);
+
 }  // namespace relevo::lod
