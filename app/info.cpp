@@ -1,1 +1,165 @@
-// written next
+#include <memory>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/command.hpp"
+#include "lod/scene/scene.hpp"
+
+namespace relevo::app {
+namespace {
+
+struct Settings {
+    Common common;
+    std::string scene;
+};
+
+/// What follows from a scene's description.
+struct Derived {
+    geo::LatLon north_west;
+    geo::LatLon south_east;  // lon continuous: beyond 180 where the scene crosses the antimeridian
+    geo::GridFrame::Spacing spacing;
+    std::uint64_t posts = 0;
+    std::uint64_t height_bytes = 0;
+    std::uint64_t metric_bytes = 0;
+
+    explicit Derived(const lod::SceneInfo& info)
+        : north_west(info.frame.lat_lon({0, 0})),
+          south_east(info.frame.lat_lon(
+              {static_cast<double>(info.frame.columns - 1), static_cast<double>(info.frame.rows - 1)})),
+          spacing(info.frame.spacing((info.frame.rows - 1) / 2.0)),
+          posts(info.valid_posts + info.void_posts),
+          height_bytes(sum(info.heights)),
+          metric_bytes(sum(info.metrics)) {}
+
+    double per_post(std::uint64_t bytes) const {
+        return static_cast<double>(bytes) / static_cast<double>(posts);
+    }
+
+  private:
+    static std::uint64_t sum(const std::vector<lod::BlockInfo>& blocks) {
+        return std::accumulate(blocks.begin(), blocks.end(), std::uint64_t{0},
+                               [](std::uint64_t bytes, const auto& block) { return bytes + block.bytes; });
+    }
+};
+
+void print_json(const lod::SceneInfo& info, const Derived& derived) {
+    nlohmann::json json = lod::to_json(info);
+    for (const char* only_on_disk : {"heights", "metrics", "undulation", "block_side", "vertical_name"}) {
+        json.erase(only_on_disk);
+    }
+    json["extent"] = {{"west", derived.north_west.lon.value},
+                      {"south", derived.south_east.lat.value},
+                      {"east", derived.south_east.lon.value},
+                      {"north", derived.north_west.lat.value}};
+    const geo::GridFrame& frame = info.frame;
+    json["n"] = frame.levels();
+    json["columns"] = frame.columns;
+    json["rows"] = frame.rows;
+    json["step_x"] = frame.step_x;
+    json["step_y"] = frame.step_y;
+    json["step_unit"] = lod::step_unit(frame.kind);
+    json["step_x_m"] = derived.spacing.east_m;
+    json["step_y_m"] = derived.spacing.north_m;
+    json["vertical_datum"] = info.vertical.name;
+    json["filled_posts"] = nullptr;  // holes are not filled, and the sea is not told from the land: unknown
+    json["sea_posts"] = nullptr;
+    if (info.valid_posts == 0) json["height_min_m"] = json["height_max_m"] = nullptr;
+    json["bytes"] = info.bytes();
+    json["bytes_per_post"] = derived.per_post(info.bytes());
+    json["height_bytes_per_post"] = derived.per_post(derived.height_bytes);
+    json["metric_bytes_per_post"] = derived.per_post(derived.metric_bytes);
+    fmt::print("{}\n", json.dump());
+}
+
+std::string degrees(double value, char positive, char negative) {
+    return fmt::format("{:.7f} {}", value < 0 ? -value : value, value < 0 ? negative : positive);
+}
+
+std::string longitude(geo::Degrees lon) {
+    return degrees(geo::wrapped_180(lon).value, 'E', 'W');
+}
+
+std::string mebibytes(std::uint64_t bytes) {
+    return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / (1 << 20));
+}
+
+void print_source(const lod::SourceInfo& source) {
+    fmt::print("source       {}: {} x {} posts, {:.10g} x {:.10g} {}, {}\n", source.name, source.columns,
+               source.rows, source.step_x, source.step_y, source.step_unit, source.crs);
+    fmt::print("             to WGS 84: {}{}\n", source.operation,
+               source.operation_accuracy_m
+                   ? fmt::format(", accuracy {:.3g} m as stated by PROJ", *source.operation_accuracy_m)
+                   : ", accuracy unknown");
+    for (const std::string& note : {source.operation_note, source.notes}) {
+        if (!note.empty()) fmt::print("             {}\n", note);
+    }
+    fmt::print("             SHA-256 {}\n", source.sha256);
+}
+
+void print_resampling(const lod::SceneInfo& info) {
+    if (info.resampling_method == "none") {
+        fmt::print("resampling   none: the source's own posts, bit for bit\n");
+        return;
+    }
+    const lod::ResamplingError& error = info.resampling;
+    fmt::print("resampling   {}; scene against {} source posts: {:.3g} m RMS, {:.3g} m at most\n",
+               info.resampling_method, error.posts, error.rms_m, error.max_m);
+    if (error.lost_posts > 0)
+        fmt::print("             {} source posts have no height here\n", error.lost_posts);
+}
+
+void print_text(const std::string& name, const lod::SceneInfo& info, const Derived& derived) {
+    const geo::GridFrame& frame = info.frame;
+    fmt::print("scene        {}, format version {}\n", name, lod::SceneInfo::kFormatVersion);
+    fmt::print("extent       {} to {}, {} to {}\n", degrees(derived.south_east.lat.value, 'N', 'S'),
+               degrees(derived.north_west.lat.value, 'N', 'S'), longitude(derived.north_west.lon),
+               longitude(derived.south_east.lon));
+    fmt::print("grid         {} x {} posts, {} (WGS 84), n = {}\n", frame.columns, frame.rows,
+               lod::to_string(frame.kind), frame.levels());
+    fmt::print("resolution   {:.10g} x {:.10g} {}, {:.2f} x {:.2f} m in the middle\n", frame.step_x,
+               frame.step_y, lod::step_unit(frame.kind), derived.spacing.east_m, derived.spacing.north_m);
+    fmt::print("heights      above {}{}, {}\n", info.vertical.name,
+               info.vertical.assumed ? " (assumed: the source does not say)" : "",
+               info.height_type == lod::HeightType::int16 ? "whole metres" : "32-bit floats");
+    if (info.valid_posts > 0)
+        fmt::print("             {:.10g} to {:.10g} m\n", info.height_min_m, info.height_max_m);
+    fmt::print("posts        {} with a height, {} void\n", info.valid_posts, info.void_posts);
+    print_resampling(info);
+    fmt::print("surface      bilinear (measured) and triangles (drawn) differ by at most {:.3g} m\n",
+               info.bilinear_mesh_max_m);
+    for (const lod::SourceInfo& source : info.sources) print_source(source);
+    fmt::print("size         {}, {:.2f} bytes a post (heights {:.2f}, errors and radii {:.2f})\n",
+               mebibytes(info.bytes()), derived.per_post(info.bytes()),
+               derived.per_post(derived.height_bytes), derived.per_post(derived.metric_bytes));
+}
+
+Result<void> show(const Settings& settings) {
+    const auto scene = lod::Scene::open(settings.scene);
+    if (!scene) return scene.error();
+    const Derived derived(scene->info());
+    if (settings.common.json) {
+        print_json(scene->info(), derived);
+    } else {
+        print_text(settings.scene, scene->info(), derived);
+    }
+    return {};
+}
+
+}  // namespace
+
+void add_info(CLI::App& program, Action& action) {
+    const auto settings = std::make_shared<Settings>();
+    CLI::App* command = program.add_subcommand("info", "What is in a scene");
+    command->footer("Example: relevo info fuji.relevo");
+    add_common(*command, settings->common);
+    command->add_option("scene", settings->scene, "A scene made by relevo ingest")
+        ->required()
+        ->type_name("SCENE");
+    command->callback([settings, &action] { action = [settings] { return show(*settings); }; });
+}
+
+}  // namespace relevo::app
