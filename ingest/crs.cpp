@@ -15,7 +15,8 @@ std::string text_of(const char* text) {
 
 std::string code_of(const PJ* object) {
     const std::string authority = text_of(proj_get_id_auth_name(object, 0));
-    return authority.empty() ? "" : authority + ":" + text_of(proj_get_id_code(object, 0));
+    return authority.empty() ? authority
+                             : fmt::format("{}:{}", authority, text_of(proj_get_id_code(object, 0)));
 }
 
 /// The EPSG code of a CRS that carries none but is one in all that matters (an old USGS DEM names nothing,
@@ -132,9 +133,8 @@ Result<Crs> Crs::parse(const std::string& text) {
         if (horizontal.empty()) horizontal = text_of(proj_get_name(bare.get()));
         crs.name_ = horizontal;
         if (crs.vertical_ && !crs.vertical_->ellipsoidal)
-            crs.name_ += "+" + (crs.vertical_->code.empty()
-                                    ? crs.vertical_->name
-                                    : crs.vertical_->code.substr(crs.vertical_->code.find(':') + 1));
+            crs.name_ = fmt::format("{} + {}", horizontal,
+                                    crs.vertical_->code.empty() ? crs.vertical_->name : crs.vertical_->code);
     }
     return crs;
 }

@@ -74,7 +74,7 @@ bool looks_like_degrees(const Affine& posts, const GDALDataset& dataset) {
 }  // namespace
 
 Result<Georeference> georeference(const OpenDataset& opened, const std::optional<std::string>& crs,
-                                  const std::optional<Bounds>& bounds, const std::string& gdal_says) {
+                                  const std::optional<Bounds>& bounds, const GdalMessages& gdal_says) {
     auto posts = posts_from(opened, bounds);
     if (!posts) return posts.error();
 
@@ -90,7 +90,8 @@ Result<Georeference> georeference(const OpenDataset& opened, const std::optional
         note = "the CRS is from the .prj beside it";
     }
     if (definition.empty()) {
-        const std::string why = gdal_says.empty() ? "" : fmt::format(" (GDAL says: {})", gdal_says);
+        const std::string why =
+            gdal_says.empty() ? std::string{} : fmt::format(" (GDAL says: {})", gdal_says.text());
         return refusal(opened.name, "it does not name its coordinate reference system" + why,
                        looks_like_degrees(*posts, *opened.dataset)
                            ? "If its axes are longitude and latitude, give --crs EPSG:4326"

@@ -6,6 +6,7 @@
 #include "geo/result.hpp"
 #include "ingest/affine.hpp"
 #include "ingest/crs.hpp"
+#include "ingest/gdal_messages.hpp"
 #include "ingest/open_dataset.hpp"
 
 namespace relevo::ingest {
@@ -18,8 +19,8 @@ struct Georeference {
 };
 
 /// From the raster, a .prj beside it, or what the user says. Fails with the remedy where something is
-/// missing. \param gdal_says  GDAL's complaints when it opened the file, for the message
+/// missing. \param gdal_says  GDAL's complaints about the file, now and while this runs, for the message
 Result<Georeference> georeference(const OpenDataset& opened, const std::optional<std::string>& crs,
-                                  const std::optional<Bounds>& bounds, const std::string& gdal_says);
+                                  const std::optional<Bounds>& bounds, const GdalMessages& gdal_says);
 
 }  // namespace relevo::ingest

@@ -34,7 +34,7 @@ Result<Source> Source::open(const SourceRequest& request) {
     if (auto chosen = source.choose_band(); !chosen) return chosen.error();
     GDALRasterBand& band = *source.band_;
 
-    auto where = georeference(source.opened_, request.crs, request.bounds, messages.text());
+    auto where = georeference(source.opened_, request.crs, request.bounds, messages);
     if (!where) return where.error();
     source.crs_ = std::move(where->crs);
     source.posts_ = where->posts;
