@@ -1,5 +1,116 @@
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
 #include "app/command.hpp"
+#include "app/view_flags.hpp"
+#include "viewer/flight.hpp"
 
 namespace relevo::app {
-void add_view(CLI::App&, Action&) {}
+
+namespace {
+
+struct WindowFlags {
+    std::string scene;
+    double fly_m_s = 0;
+    std::uint64_t frames = 0;
+    double ui_scale = 0;
+    std::string screenshot_dir = ".";
+    ViewFlags view;
+    Common common;
+};
+
+nlohmann::json to_json(const viewer::FlightFigures& figures) {
+    return {{"frames", figures.frames},
+            {"frame_ms_median", figures.frame_ms_median},
+            {"frame_ms_p99", figures.frame_ms_p99},
+            {"refine_ms_median", figures.refine_ms_median},
+            {"triangles", figures.triangles},
+            {"draw_calls", figures.draw_calls},
+            {"width", figures.width},
+            {"height", figures.height},
+            {"samples", figures.samples},
+            {"gl_renderer", figures.gl},
+            {"at", to_string(figures.view)}};
+}
+
+Result<void> check(const WindowFlags& flags) {
+    const auto wrong = [](std::string message) { return Error{ErrorKind::usage, std::move(message)}; };
+    if (!(flags.fly_m_s >= 0 && flags.fly_m_s <= 1e6)) return wrong("--fly: 0 to 1000000 metres a second");
+    if (!(flags.ui_scale == 0 || (flags.ui_scale >= 0.5 && flags.ui_scale <= 4)))
+        return wrong("--ui-scale: 0.5 to 4");
+    std::error_code failed;
+    if (!std::filesystem::is_directory(flags.screenshot_dir, failed)) {
+        return wrong(fmt::format("--screenshot-dir {}: there is no such folder", flags.screenshot_dir));
+    }
+    return {};
+}
+
+Result<void> run(const WindowFlags& flags) {
+    viewer::ViewState moving;
+    moving.morph = true;  // a picture that moves should not jump
+    auto view = read_view(flags.view, moving);
+    if (!view) return view.error();
+    const auto size = read_size(flags.view, {});
+    if (!size) return size.error();
+    int samples = 0;
+    if (flags.view.samples) {
+        const auto asked = read_samples(flags.view, 0);
+        if (!asked) return asked.error();
+        samples = *asked;
+    }
+    if (auto fine = check(flags); !fine) return fine;
+
+    const auto scene = lod::Scene::open(flags.scene);
+    if (!scene) return scene.error();
+    const auto terrain = lod::Terrain::load(*scene, view->metric);
+    if (!terrain) return terrain.error();
+    const auto heights = viewer::EyeHeight::create(scene->info().vertical.datum);
+    if (!heights) return heights.error();
+    place_view(*view, flags.view, *scene, *terrain, *heights, *size);
+
+    viewer::FlightOptions options{.width = size->width,
+                                  .height = size->height,
+                                  .samples = samples,
+                                  .forward_m_s = flags.fly_m_s,
+                                  .frames = flags.frames,
+                                  .ui_scale = flags.ui_scale,
+                                  .screenshot_folder = flags.screenshot_dir};
+    // With --json, stdout is one object; what happens on the way goes to stderr.
+    std::FILE* events = flags.common.json ? stderr : stdout;
+    options.say = [events](const std::string& line) {
+        fmt::print(events, "{}\n", line);
+        std::fflush(events);
+    };
+    const auto figures = viewer::fly(*scene, *terrain, *heights, *view, options);
+    if (!figures) return figures.error();
+    if (flags.common.json) fmt::print("{}\n", to_json(*figures).dump(2));
+    return {};
+}
+
+}  // namespace
+
+void add_view(CLI::App& program, Action& action) {
+    auto flags = std::make_shared<WindowFlags>();
+    CLI::App* command = program.add_subcommand("view", "Fly over a scene and measure in it, in a window");
+    command->footer(
+        "Example:\n  relevo view colorado.relevo --eye 37.45,-105.75,3200 --heading 55 --fly 200\nF1 lists "
+        "the keys.");
+    command->add_option("SCENE", flags->scene, "A scene made by relevo ingest")->required();
+    add_view_flags(*command, flags->view);
+    command->add_option("--fly", flags->fly_m_s, "Fly ahead by itself, until a key is pressed")
+        ->type_name("M_PER_S");
+    command->add_option("--frames", flags->frames, "Close after so many frames")->type_name("N");
+    command->add_option("--ui-scale", flags->ui_scale, "Size of letters and marks [the screen's]")
+        ->type_name("X");
+    command->add_option("--screenshot-dir", flags->screenshot_dir, "Where P and F12 write [.]")
+        ->type_name("DIR");
+    add_common(*command, flags->common);
+    command->callback([flags, &action] { action = [flags] { return run(*flags); }; });
+}
+
 }  // namespace relevo::app

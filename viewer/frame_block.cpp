@@ -7,6 +7,7 @@
 #include <glm/matrix.hpp>
 
 #include "geo/ellipsoid.hpp"
+#include "viewer/eye_height.hpp"
 
 namespace relevo::viewer {
 
@@ -33,6 +34,11 @@ glm::dvec3 sun_in_enu(const geo::SunDirection& sun) {
     const double flat = std::cos(sun.elevation.radians());
     return {flat * std::sin(sun.azimuth.radians()), flat * std::cos(sun.azimuth.radians()),
             std::sin(sun.elevation.radians())};
+}
+
+bool may_be_below(const geo::Geodetic& eye, const lod::Terrain& terrain, double exaggeration) {
+    const auto ground = ground_height(terrain, {eye.lat, eye.lon}, exaggeration);
+    return ground ? eye.h < *ground : eye.h.m < 10e3 * exaggeration;
 }
 
 glm::vec4 vec4(const glm::dvec3& v, double w = 0) {
@@ -63,7 +69,8 @@ FrameBlock frame_block(const lod::View& view, const lod::Terrain& terrain, const
     block.sun =
         vec4(fixed ? to_sun.x * local.east() + to_sun.y * local.north() + to_sun.z * local.up() : to_sun,
              daylight * daylight * (3 - 2 * daylight));
-    block.surface = glm::dvec4(exaggeration, terrain.levels(), 1 / kVisibilityM, 0);
+    block.surface = glm::dvec4(exaggeration, terrain.levels(), 1 / kVisibilityM,
+                               may_be_below(camera.eye, terrain, exaggeration) ? 1 : 0);
 
     // The ray through the window's middle and its change to the window's right and upper edge.
     const double tan_x = 0.5 * camera.width / view.focal_px();

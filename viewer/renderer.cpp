@@ -95,8 +95,7 @@ Result<GlName> Renderer::terrain_program(const Variant& variant) {
     if (const auto known = terrain_programs_.find(variant); known != terrain_programs_.end()) {
         return known->second.name();
     }
-    std::string defines = fmt::format("#define LAYER {}\n#define CENTROID {}\n",
-                                      static_cast<int>(variant.layer), variant.centroid ? "centroid" : "");
+    std::string defines = fmt::format("#define LAYER {}\n", static_cast<int>(variant.layer));
     if (variant.wireframe) defines += "#define WIREFRAME\n";
     if (variant.sun_fixed) defines += "#define SUN_FIXED\n";
     if (variant.sky) defines += "#define SKY\n";
@@ -125,8 +124,7 @@ Result<DrawFigures> Renderer::draw(const lod::View& view, const DrawSettings& se
     const auto program = terrain_program({.layer = settings.layer,
                                           .wireframe = settings.wireframe,
                                           .sun_fixed = settings.sun.kind == SunSetting::Kind::time,
-                                          .sky = sky,
-                                          .centroid = target.samples() > 1});
+                                          .sky = sky});
     if (!program) return program.error();
 
     const FrameBlock block =

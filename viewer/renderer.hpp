@@ -64,7 +64,7 @@ class Renderer {
     /// What makes one terrain program differ from another.
     struct Variant {
         Layer layer;
-        bool wireframe, sun_fixed, sky, centroid;
+        bool wireframe, sun_fixed, sky;
         friend auto operator<=>(const Variant&, const Variant&) = default;
     };
     Result<GlName> terrain_program(const Variant& variant);

@@ -5,7 +5,7 @@ layout(std140, binding = 0) uniform Frame {
     vec4 grid;              // last column, last row, 1 / columns, 1 / rows
     vec4 place;             // west, north, step along columns, step along rows; radians
     vec4 sun;               // east, north, up where SUN_FIXED is not set, else ECEF; w: daylight at the eye, 0 to 1
-    vec4 surface;           // exaggeration, levels, haze per metre at the sea, unused
+    vec4 surface;           // exaggeration, levels, haze per metre at the sea, 1 where the eye may be below the ground
     vec4 ray;               // through the middle of the picture, then its change to the right edge and to the upper edge
     vec4 ray_right;
     vec4 ray_up;
@@ -14,12 +14,12 @@ layout(std140, binding = 0) uniform Frame {
 }
 frame;
 
-const vec3 kHazeColour = vec3(0.74, 0.80, 0.86);
-const vec3 kZenithColour = vec3(0.24, 0.45, 0.72);
+const vec3 kHazeColour = vec3(0.80, 0.86, 0.92);
+const vec3 kZenithColour = vec3(0.30, 0.53, 0.83);
 const vec3 kSpaceColour = vec3(0.010, 0.012, 0.030);
-const vec3 kGroundColour = vec3(0.36, 0.38, 0.36);  // where there is no data
+const vec3 kGroundColour = vec3(0.42, 0.44, 0.42);  // where there is no data
 const float kAirScale = 8000.0;                     // of the air's density with height
-const float kGlowScale = 14000.0;                   // of what the eye sees of it
+const float kGlowScale = 22000.0;                   // of the light that it scatters, which falls off later and then faster
 
 float dimmed(float daylight) { return mix(0.10, 1.0, daylight); }
 

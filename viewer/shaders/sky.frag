@@ -17,7 +17,7 @@ void main() {
     float day = dimmed(frame.sun.w);
     float lowest = b >= 0.0 || c <= 0.0 ? max(frame.eye_up.w, 0.0)
                                         : (sqrt(max(1.0 + c - b * b / a, 1.0)) - 1.0) * radius;
-    float air = exp(-lowest / kGlowScale);
+    float air = exp(-pow(lowest / kGlowScale, 1.5));
     float high = 1.0 - exp(-3.5 * max(above, 0.0));
     vec3 sky = mix(kSpaceColour, mix(kHazeColour, kZenithColour, high) * day, air);
 
@@ -26,5 +26,8 @@ void main() {
         float way = radius * c / (sqrt(max(b * b - a * c, 0.0)) - min(b, 0.0));
         ground = mix(ground, kHazeColour * day, haze(way, frame.eye_up.w, 0.0));
     }
-    colour = vec4(mix(ground, sky, clamp(0.5 + above / max(fwidth(above), 1e-7), 0.0, 1.0)), 1.0);
+    vec3 shown = mix(ground, sky, clamp(0.5 + above / max(fwidth(above), 1e-7), 0.0, 1.0));
+    // The sky changes by less than one step of 8 bits over many pixels: ordered noise of one step hides the bands.
+    float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))) - 0.5;
+    colour = vec4(shown + noise / 255.0, 1.0);
 }

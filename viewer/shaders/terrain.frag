@@ -7,14 +7,14 @@ in WiredSurface {
 #else
 in Surface {
 #endif
-    CENTROID vec2 grid;
-    CENTROID float haze;
+    vec2 grid;
+    float haze;
     flat float level;
 #ifdef SUN_FIXED
-    CENTROID vec3 sun;
+    vec3 sun;
 #endif
 #ifdef WIREFRAME
-    CENTROID vec3 barycentric;
+    vec3 barycentric;
 #endif
 }
 surface;
@@ -23,9 +23,10 @@ out vec4 colour;
 
 vec3 ramp_colour(float at) { return texture(ramp, vec2(at, 0.5)).rgb; }
 
-// Coarse to fine: a polynomial fit of the Turbo colour map (A. Mikhailov, Google, 2019).
+// Coarse to fine: a polynomial fit of the Turbo colour map (A. Mikhailov, Google, 2019). Most of what is seen is fine:
+// the power gives its levels more of the colours.
 vec3 level_colour(float level) {
-    float x = clamp(level / (2.0 * frame.surface.y), 0.0, 1.0);
+    float x = pow(clamp(level / (2.0 * frame.surface.y), 0.0, 1.0), 2.5);
     vec4 v4 = vec4(1.0, x, x * x, x * x * x);
     vec2 v2 = v4.zw * v4.z;
     vec3 mapped = vec3(dot(v4, vec4(0.13572138, 4.61539260, -42.66032258, 132.13108234)) +
@@ -67,7 +68,7 @@ void main() {
     float day = dimmed(frame.sun.w);
 #endif
     float lit = max(dot(normal, sun), 0.0);
-    float relief = (0.26 + 0.12 * normal.z) * day + 0.66 * lit;
+    float relief = (0.32 + 0.12 * normal.z) * day + 0.75 * lit;
 
 #if LAYER == 0  // hypsometric
     vec3 shown = ramp_colour(0.5 + 0.5 * here.z) * relief;
@@ -83,7 +84,9 @@ void main() {
     vec3 shown = mix(vec3(0.5), level_colour(surface.level), 0.75) * (0.35 + 0.65 * relief);
     float hazed = 0.0;
 #endif
-    if (!gl_FrontFacing) shown = vec3(0.20, 0.17, 0.15) * (0.5 + 0.5 * relief);  // the ground from below
+    // The ground from below. Only where the eye can be there: seen from above, a sliver on a ridge may turn its back by
+    // rounding.
+    if (!gl_FrontFacing && frame.surface.w > 0.5) shown = vec3(0.20, 0.17, 0.15) * (0.5 + 0.5 * relief);
 #ifdef WIREFRAME
     vec3 line = level_colour(surface.level);
     shown = mix(shown, line, 0.85 * on_edge(surface.barycentric));

@@ -14,23 +14,23 @@ out gl_PerVertex {
 };
 
 in Surface {
-    CENTROID vec2 grid;
-    CENTROID float haze;
+    vec2 grid;
+    float haze;
     flat float level;
 #ifdef SUN_FIXED
-    CENTROID vec3 sun;
+    vec3 sun;
 #endif
 }
 corner[];
 
 out WiredSurface {
-    CENTROID vec2 grid;
-    CENTROID float haze;
+    vec2 grid;
+    float haze;
     flat float level;
 #ifdef SUN_FIXED
-    CENTROID vec3 sun;
+    vec3 sun;
 #endif
-    CENTROID vec3 barycentric;
+    vec3 barycentric;
 }
 surface;
 

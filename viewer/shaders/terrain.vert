@@ -7,11 +7,11 @@ out gl_PerVertex {
 };
 
 out Surface {
-    CENTROID vec2 grid;  // column and row
-    CENTROID float haze;
+    vec2 grid;  // column and row
+    float haze;
     flat float level;
 #ifdef SUN_FIXED
-    CENTROID vec3 sun;  // in local east, north, up: it turns as the ground curves
+    vec3 sun;  // in local east, north, up: it turns as the ground curves
 #endif
 }
 surface;

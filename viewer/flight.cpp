@@ -1,0 +1,303 @@
+#include "viewer/flight.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "geo/coordinate_text.hpp"
+#include "lod/soar/pick.hpp"
+#include "viewer/camera.hpp"
+#include "viewer/flight_controls.hpp"
+#include "viewer/flight_keys.hpp"
+#include "viewer/gl_check.hpp"
+#include "viewer/hud.hpp"
+#include "viewer/mesher.hpp"
+#include "viewer/renderer.hpp"
+#include "viewer/ruler.hpp"
+#include "viewer/ui.hpp"
+#include "viewer/window.hpp"
+
+namespace relevo::viewer {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double ms_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// Value below which this part of the samples lies.
+double quantile(std::vector<double> samples, double part) {
+    if (samples.empty()) return 0;
+    const auto at = static_cast<std::size_t>(std::ceil(part * static_cast<double>(samples.size() - 1)));
+    std::nth_element(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(at), samples.end());
+    return samples[at];
+}
+
+/// One flight: the window, what draws in it, and the state that its user changes.
+class Flight {
+  public:
+    Flight(const lod::Scene& scene, const lod::Terrain& terrain, const EyeHeight& heights,
+           const ViewState& start, const FlightOptions& options, Window window, Ui ui, Renderer renderer)
+        : scene_(scene),
+          terrain_(terrain),
+          heights_(heights),
+          options_(options),
+          window_(std::move(window)),
+          ui_(std::move(ui)),
+          renderer_(std::move(renderer)),
+          mesher_(terrain),
+          controls_(terrain, heights, options.forward_m_s),
+          sampler_(scene),
+          view_(start) {
+        figures_.gl = gl_description();
+        const bool software = figures_.gl.find("llvmpipe") != std::string::npos ||
+                              figures_.gl.find("softpipe") != std::string::npos;
+        figures_.samples = options.samples != 0 ? options.samples : software ? 1 : 4;
+    }
+
+    Result<FlightFigures> run() {
+        while (!window_.should_close()) {
+            const bool idle =
+                !controls_.moving(window_) && options_.frames == 0 && still_frames_ > kSettlingFrames;
+            const Input& input = window_.poll(idle ? 0.5 : 0);
+            still_frames_ = input.anything ? 0 : still_frames_ + 1;
+            if (idle && !input.anything && !message_expired()) continue;
+            const glm::ivec2 size = window_.size();
+            if (size.x <= 0 || size.y <= 0) {  // an icon
+                window_.poll(0.1);
+                continue;
+            }
+            if (auto done = frame(input, size.x, size.y); !done) return done.error();
+            if (options_.frames != 0 && figures_.frames >= options_.frames) window_.close();
+        }
+        figures_.frame_ms_median = quantile(frame_ms_, 0.5);
+        figures_.frame_ms_p99 = quantile(frame_ms_, 0.99);
+        figures_.refine_ms_median = quantile(refine_ms_, 0.5);
+        figures_.view = view_;
+        return figures_;
+    }
+
+  private:
+    /// The user interface needs a few frames to come to rest after an event.
+    static constexpr int kSettlingFrames = 3;
+    static constexpr double kMessageMs = 4000;
+
+    bool message_expired() {
+        if (message_.empty() || ms_since(message_since_) < kMessageMs) return false;
+        message_.clear();
+        return true;
+    }
+
+    void tell(std::string message) {
+        message_ = std::move(message);
+        message_since_ = Clock::now();
+    }
+
+    Result<void> frame(const Input& input, int width, int height) {
+        const auto start = Clock::now();
+        const double dt = std::min(ms_since(last_frame_) / 1000, 0.25);
+        last_frame_ = start;
+        if (!target_ || target_->width() != width || target_->height() != height) {
+            auto made = RenderTarget::create(width, height, figures_.samples);
+            if (!made) return made.error();
+            target_.emplace(std::move(*made));
+        }
+        bool screenshot = false;
+        for (const int key : input.pressed) screenshot |= press(key, width, height);
+        controls_.steer(view_, window_, input, dt, width, height);
+
+        const lod::View view(camera_of(view_, heights_, width, height));
+        if (auto done = read_ground(view, input); !done) return done;
+        if (auto done = draw(view); !done) return done;
+        draw_hud(view);
+        if (screenshot) {
+            if (auto done = take_screenshot(); !done) tell(done.error().message);
+        }
+        window_.show();
+        if (auto done = gl_check("drawing the window"); !done) return done;
+        count(ms_since(start), width, height);
+        return {};
+    }
+
+    /// What is under the cursor and in the middle: the place by a ray, the value from the full data.
+    Result<void> read_ground(const lod::View& view, const Input& input) {
+        const auto hit_at = [&](const glm::dvec2& pixel) {
+            return lod::pick(terrain_, view.eye(), view.ray(pixel), view_.exaggeration);
+        };
+        const auto measure = [&](const glm::dvec2& pixel) -> Result<std::optional<lod::PointMeasurement>> {
+            const auto hit = hit_at(pixel);
+            if (!hit) return std::optional<lod::PointMeasurement>{};
+            auto point = lod::measure_point(sampler_, heights_.geoid(), terrain_.frame().lat_lon(hit->place));
+            if (!point) return point.error();
+            return std::optional(*point);
+        };
+        cursor_.reset();
+        if (input.cursor_inside) {
+            auto under = measure(input.cursor);
+            if (!under) return under.error();
+            cursor_ = *under;
+        }
+        for (const glm::dvec2& click : input.clicks) {
+            const auto point = measure(click);
+            if (!point) return point.error();
+            if (*point) {
+                ruler_.add(**point);
+                if (const auto line = ruler_.line()) {
+                    options_.say(fmt::format("distance {:.4f} m, azimuth {:.6f} degrees", line->length_m,
+                                             line->azimuth1.value));
+                }
+            }
+        }
+        const auto middle = hit_at({0.5 * view.camera().width, 0.5 * view.camera().height});
+        middle_distance_.reset();
+        if (middle) middle_distance_ = middle->distance_m;
+        return {};
+    }
+
+    Result<void> draw(const lod::View& view) {
+        const auto start = Clock::now();
+        const lod::Mesh& mesh = mesher_.mesh(view, view_);
+        refine_ms_.push_back(ms_since(start));
+        figures_.triangles = mesh.triangles();
+        renderer_.upload(mesh);
+        const auto drawn = renderer_.draw(view,
+                                          {.layer = view_.layer,
+                                           .wireframe = view_.wireframe,
+                                           .exaggeration = view_.exaggeration,
+                                           .sun = view_.sun,
+                                           .background = {}},
+                                          *target_);
+        if (!drawn) return drawn.error();
+        figures_.draw_calls = drawn->draw_calls;
+        target_->show();
+        return {};
+    }
+
+    void draw_hud(const lod::View& view) {
+        const HudContent content{.view = view_,
+                                 .vertical = &scene_.info().vertical,
+                                 .cursor = cursor_,
+                                 .above_ground_m = controls_.above_ground(view_),
+                                 .speed_m_s = controls_.speed(view_),
+                                 .triangles = figures_.triangles,
+                                 .frame_ms = shown_ms_,
+                                 .middle_distance_m = middle_distance_,
+                                 .message = message_,
+                                 .keys_shown = keys_shown_};
+        ui_.begin();
+        draw_marks(content, ruler_, ruler_.on_ground(terrain_, view_.exaggeration), view);
+        draw_panels(content, ruler_);
+        ui_.end();
+    }
+
+    /// Does what a key says; true asks for a screenshot of this frame.
+    bool press(int key, int width, int height) {
+        switch (press_key(view_, key)) {
+            case KeyAction::none:
+                break;
+            case KeyAction::show_keys:
+                keys_shown_ = !keys_shown_;
+                break;
+            case KeyAction::clear_ruler:
+                ruler_.clear();
+                break;
+            case KeyAction::copy_place:
+                copy_place();
+                break;
+            case KeyAction::copy_view:
+                copy("view", to_string(view_));
+                break;
+            case KeyAction::screenshot:
+                return true;
+            case KeyAction::whole_scene:
+                look_over(view_, terrain_, scene_.info(), heights_, width, height);
+                break;
+        }
+        return false;
+    }
+
+    void copy_place() {
+        if (!cursor_) return tell("no ground under the cursor to copy");
+        std::string text = geo::to_decimal_degrees(cursor_->place);
+        if (cursor_->H) text += fmt::format(", {:.3f}", cursor_->H->m);
+        copy("coordinates", text);
+    }
+
+    void copy(const char* what, const std::string& text) {
+        window_.set_clipboard(text);
+        options_.say(fmt::format("{} {}", what, text));
+        tell(fmt::format("copied the {}", what));
+    }
+
+    Result<void> take_screenshot() {
+        std::filesystem::path file;
+        do {
+            file = options_.screenshot_folder / fmt::format("relevo-{:04d}.png", ++screenshots_);
+        } while (std::filesystem::exists(file));
+        if (auto done = write_picture(window_.read_back(), file, to_string(view_)); !done) return done;
+        options_.say(fmt::format("screenshot {}", file.string()));
+        tell(fmt::format("wrote {}", file.string()));
+        return {};
+    }
+
+    void count(double ms, int width, int height) {
+        // The first frame compiles the programs.
+        if (figures_.frames == 1) frame_ms_.clear();
+        frame_ms_.push_back(ms);
+        shown_ms_ += (ms - shown_ms_) * (figures_.frames < 5 ? 1 : 0.15);
+        ++figures_.frames;
+        figures_.width = width;
+        figures_.height = height;
+    }
+
+    const lod::Scene& scene_;
+    const lod::Terrain& terrain_;
+    const EyeHeight& heights_;
+    const FlightOptions& options_;
+    // In this order: what is drawn with goes before the context that it lives in.
+    Window window_;
+    Ui ui_;
+    Renderer renderer_;
+    std::optional<RenderTarget> target_;
+    Mesher mesher_;
+    FlightControls controls_;
+    lod::HeightSampler sampler_;
+    Ruler ruler_;
+    ViewState view_;
+
+    std::optional<lod::PointMeasurement> cursor_;
+    std::optional<double> middle_distance_;
+    bool keys_shown_ = false;
+    std::string message_;
+    Clock::time_point message_since_{};
+    Clock::time_point last_frame_ = Clock::now();
+    int still_frames_ = 0;
+    int screenshots_ = 0;
+
+    FlightFigures figures_;
+    std::vector<double> frame_ms_;
+    std::vector<double> refine_ms_;
+    double shown_ms_ = 0;
+};
+
+}  // namespace
+
+Result<FlightFigures> fly(const lod::Scene& scene, const lod::Terrain& terrain, const EyeHeight& heights,
+                          const ViewState& start, const FlightOptions& options) {
+    auto window = Window::create(options.width, options.height,
+                                 fmt::format("{} - Relevo", scene.path().filename().string()));
+    if (!window) return window.error();
+    auto ui = Ui::create(*window, options.ui_scale > 0 ? options.ui_scale : window->scale());
+    if (!ui) return ui.error();
+    auto renderer = Renderer::create(terrain);
+    if (!renderer) return renderer.error();
+    Flight flight(scene, terrain, heights, start, options, std::move(*window), std::move(*ui),
+                  std::move(*renderer));
+    return flight.run();
+}
+
+}  // namespace relevo::viewer

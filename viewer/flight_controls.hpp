@@ -1,0 +1,45 @@
+#pragma once
+
+#include "lod/terrain.hpp"
+#include "viewer/eye_height.hpp"
+#include "viewer/input.hpp"
+#include "viewer/pose.hpp"
+#include "viewer/view_state.hpp"
+#include "viewer/window.hpp"
+
+namespace relevo::viewer {
+
+/// Moves a view as keys and mouse say.
+class FlightControls {
+  public:
+    /// The terrain and heights must outlive it.
+    FlightControls(const lod::Terrain& terrain, const EyeHeight& heights, double forward_m_s)
+        : terrain_(terrain), heights_(heights), forward_m_s_(forward_m_s) {}
+
+    /// Changes the view for what happened in dt seconds. \param height  of the picture, pixels
+    void steer(ViewState& view, const Window& window, const Input& input, double dt, int width, int height);
+
+    /// Is anything going on that changes the view without a new event?
+    bool moving(const Window& window) const;
+
+    /// Of the keys, metres a second: grows with the height above the ground.
+    double speed(const ViewState& view) const;
+    /// Of the eye above the ground as it is drawn; nothing outside the data and over voids.
+    std::optional<double> above_ground(const ViewState& view) const;
+
+    /// The least height of the eye above the drawn ground, metres.
+    static constexpr double kClearanceM = 2;
+
+  private:
+    Pose pose_of(const ViewState& view) const;
+    void put(ViewState& view, const Pose& pose) const;
+    void keep_above_ground(ViewState& view) const;
+
+    const lod::Terrain& terrain_;
+    const EyeHeight& heights_;
+    double forward_m_s_;
+    double wheel_ = 0;
+    std::optional<geo::Ecef> centre_;  // of going round
+};
+
+}  // namespace relevo::viewer

@@ -1,0 +1,173 @@
+#include <cmath>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "viewer/hud.hpp"
+
+namespace relevo::viewer {
+
+namespace {
+
+enum class Corner { upper_left, below_last, bottom, middle };
+
+/// A panel of lines that is as large as its text, and takes neither clicks nor keys.
+class Panel {
+  public:
+    /// \param last_bottom  where the panel above it ends, for Corner::below_last
+    Panel(const char* name, Corner corner, float last_bottom = 0) {
+        const ImVec2 size = ImGui::GetIO().DisplaySize;
+        const float margin = 0.5f * ImGui::GetFontSize();
+        ImVec2 at(margin, margin);
+        ImVec2 pivot(0, 0);
+        switch (corner) {
+            case Corner::upper_left:
+                break;
+            case Corner::below_last:
+                at.y = last_bottom;
+                break;
+            case Corner::bottom:
+                at = {0.5f * size.x, size.y - margin}, pivot = {0.5f, 1};
+                break;
+            case Corner::middle:
+                at = {0.5f * size.x, 0.5f * size.y}, pivot = {0.5f, 0.5f};
+                break;
+        }
+        ImGui::SetNextWindowPos(at, ImGuiCond_Always, pivot);
+        ImGui::Begin(name, nullptr,
+                     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                         ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoSavedSettings |
+                         ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
+    }
+    Panel(const Panel&) = delete;
+    Panel& operator=(const Panel&) = delete;
+    ~Panel() { ImGui::End(); }
+
+    void line(const std::string& text) { ImGui::TextUnformatted(text.data(), text.data() + text.size()); }
+
+    /// Where the next panel below may begin.
+    float bottom() const {
+        return ImGui::GetWindowPos().y + ImGui::GetWindowHeight() + 0.5f * ImGui::GetFontSize();
+    }
+};
+
+std::string eye_text(geo::OrthometricHeight H, const lod::VerticalReference& vertical) {
+    if (vertical.datum == lod::VerticalDatum::ellipsoid) return fmt::format("h {:.1f} m", H.m);
+    return fmt::format("H {:.1f} m {}", H.m, vertical.name);
+}
+
+float view_panel(const HudContent& content) {
+    const ViewState& view = content.view;
+    Panel panel("view", Corner::upper_left);
+    panel.line(place_text(view.place));
+    panel.line(
+        fmt::format("eye {}", eye_text(view.H, *content.vertical)) +
+        (content.above_ground_m ? fmt::format(", {:.1f} m above ground", *content.above_ground_m) : ""));
+    panel.line(fmt::format("heading {:.1f}\u00b0  pitch {:.1f}\u00b0", view.heading.value, view.pitch.value));
+    panel.line(fmt::format("speed {:.3g} m/s", content.speed_m_s));
+    ImGui::Separator();
+    panel.line(fmt::format("{} triangles", content.triangles));
+    panel.line(view.method == Method::full
+                   ? std::string("full data")
+                   : fmt::format("tau {:.3g} px, morph {}", view.tau_px, view.morph ? "on" : "off"));
+    panel.line(fmt::format("{:.1f} ms a frame", content.frame_ms));
+    if (view.exaggeration != 1) panel.line(fmt::format("heights x {:.3g}", view.exaggeration));
+    if (view.layer != Layer::hypsometric) panel.line(std::string(to_string(view.layer)));
+    return panel.bottom();
+}
+
+void cursor_panel(const HudContent& content) {
+    Panel panel("cursor", Corner::bottom);
+    if (!content.message.empty()) panel.line(content.message);
+    if (!content.cursor) {
+        panel.line("no ground under the cursor        F1: keys");
+        return;
+    }
+    panel.line(fmt::format("{}   {}", place_text(content.cursor->place),
+                           heights_text(*content.cursor, *content.vertical)));
+}
+
+void ruler_panel(const Ruler& ruler, const lod::VerticalReference& vertical, float top) {
+    if (ruler.points().empty()) return;
+    Panel panel("ruler", Corner::below_last, top);
+    for (std::size_t i = 0; i < ruler.points().size(); ++i) {
+        const auto& point = ruler.points()[i];
+        panel.line(fmt::format("{}: {}  {}", i + 1, place_text(point.place), heights_text(point, vertical)));
+    }
+    if (const auto line = ruler.line()) {
+        panel.line(fmt::format("geodesic {}  azimuth {:.3f}\u00b0", length_text(line->length_m),
+                               line->azimuth1.value));
+    } else {
+        panel.line("click the second point; Esc clears");
+    }
+}
+
+void keys_panel() {
+    ImGui::SetNextWindowBgAlpha(0.92f);
+    Panel panel("keys", Corner::middle);
+    struct Key {
+        const char* keys;
+        const char* what;
+    };
+    static constexpr Key kKeys[] = {{"W S / up, down", "ahead, back"},
+                                    {"A D / left, right", "left, right (arrows turn)"},
+                                    {"E Q / page up, down", "up, down"},
+                                    {"Shift", "four times as fast"},
+                                    {"left drag", "look around"},
+                                    {"right drag", "go round the point under the cursor"},
+                                    {"wheel", "speed"},
+                                    {"left click, twice", "measure a distance; Esc clears"},
+                                    {"+ -", "tau: coarser, finer"},
+                                    {"L", "wireframe by level"},
+                                    {"M", "morphing on, off"},
+                                    {"X Z", "more, less exaggeration"},
+                                    {"1 2 3 4", "tints, hillshade, slope, levels"},
+                                    {"N", "north up"},
+                                    {"Home", "the whole scene"},
+                                    {"C", "copy the coordinates under the cursor"},
+                                    {"V", "copy the view (for --at)"},
+                                    {"P, F12", "screenshot"},
+                                    {"F1", "this list"}};
+    ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit);
+    for (const Key& key : kKeys) {
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(key.keys);
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(key.what);
+    }
+    ImGui::EndTable();
+}
+
+}  // namespace
+
+std::string place_text(geo::LatLon place) {
+    const double lon = geo::wrapped_180(place.lon).value;
+    return fmt::format("{:.6f}\u00b0 {}  {:.6f}\u00b0 {}", std::abs(place.lat.value),
+                       place.lat.value < 0 ? "S" : "N", std::abs(lon), lon < 0 ? "W" : "E");
+}
+
+std::string length_text(double metres) {
+    return metres < 1000 ? fmt::format("{:.2f} m", metres) : fmt::format("{:.5f} km", metres / 1000);
+}
+
+std::string heights_text(const lod::PointMeasurement& point, const lod::VerticalReference& vertical) {
+    if (point.kind == lod::PointClass::outside) return "outside the data";
+    if (!point.H) return "no data (void)";
+    const char* assumed = vertical.assumed ? " (assumed)" : "";
+    if (vertical.datum == lod::VerticalDatum::ellipsoid) {
+        return fmt::format("h {:.2f} m above the WGS 84 ellipsoid{}", point.H->m, assumed);
+    }
+    const std::string h =
+        point.h ? fmt::format("h {:.2f} m", point.h->m) : std::string("h unknown: no geoid for it here");
+    return fmt::format("H {:.2f} m {}{}   {}", point.H->m, vertical.name, assumed, h);
+}
+
+void draw_panels(const HudContent& content, const Ruler& ruler) {
+    const float top = view_panel(content);
+    ruler_panel(ruler, *content.vertical, top);
+    cursor_panel(content);
+    if (content.keys_shown) keys_panel();
+}
+
+}  // namespace relevo::viewer

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+namespace relevo::viewer {
+
+/// What the window's user did since the last frame. Positions are in pixels of the picture, (0, 0) upper
+/// left.
+struct Input {
+    enum class Button { left, right };
+
+    std::vector<int> pressed;  ///< keys, by GLFW's numbers, in order
+    glm::dvec2 cursor{0};
+    bool cursor_inside = false;
+    glm::dvec2 drag_left{0};  ///< of the cursor while the button was down and no longer a click
+    glm::dvec2 drag_right{0};
+    std::optional<glm::dvec2> right_pressed_at;  ///< where the right button went down
+    std::vector<glm::dvec2> clicks;              ///< of the left button: down and up again in one place
+    double wheel = 0;                            ///< turns, up is positive
+    bool anything = false;                       ///< any event at all
+};
+
+}  // namespace relevo::viewer

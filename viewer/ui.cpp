@@ -1,0 +1,94 @@
+#include "viewer/ui.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+namespace relevo::viewer {
+
+namespace {
+
+constexpr float kLetterPx = 15;
+
+/// A TrueType file with the letters that we need, where distributions put DejaVu; $RELEVO_FONT comes first.
+/// Empty where there is none: ImGui's own small font then serves.
+std::string font_file() {
+    if (const char* chosen = std::getenv("RELEVO_FONT");
+        chosen != nullptr && std::filesystem::exists(chosen)) {
+        return chosen;
+    }
+    for (const char* file :
+         {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/dejavu/DejaVuSans.ttf",
+          "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf",
+          "/usr/local/share/fonts/DejaVuSans.ttf"}) {
+        if (std::filesystem::exists(file)) return file;
+    }
+    return {};
+}
+
+void load_font(ImGuiIO& io, float scale) {
+    static constexpr ImWchar kLetters[] = {0x20, 0xff, 0};  // Latin-1: with the degree sign
+    const std::string file = font_file();
+    if (!file.empty() &&
+        io.Fonts->AddFontFromFileTTF(file.c_str(), std::round(kLetterPx * scale), nullptr, kLetters)) {
+        return;
+    }
+    ImFontConfig own;
+    own.SizePixels = std::round(13 * scale);
+    io.Fonts->AddFontDefault(&own);
+}
+
+}  // namespace
+
+Ui::Ui(std::unique_ptr<int, Release> started) : started_(std::move(started)) {}
+
+// Counts what has to be undone: 1 the context, 2 the window's part, 3 OpenGL's part.
+void Ui::Release::operator()(int* started) const {
+    if (*started >= 3) ImGui_ImplOpenGL3_Shutdown();
+    if (*started >= 2) ImGui_ImplGlfw_Shutdown();
+    if (*started >= 1) ImGui::DestroyContext();
+    delete started;
+}
+
+Result<Ui> Ui::create(const Window& window, double scale) {
+    std::unique_ptr<int, Release> started(new int(0));
+    IMGUI_CHECKVERSION();
+    ImGui::CreateContext();
+    *started = 1;
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;  // leaves nothing behind in the current folder
+    load_font(io, static_cast<float>(scale));
+    ImGui::StyleColorsDark();
+    ImGuiStyle& style = ImGui::GetStyle();
+    style.WindowRounding = 4;
+    style.WindowBorderSize = 0;
+    style.Colors[ImGuiCol_WindowBg] = ImVec4(0.05f, 0.06f, 0.08f, 0.72f);
+    style.ScaleAllSizes(static_cast<float>(scale));
+    if (!ImGui_ImplGlfw_InitForOpenGL(window.handle(), true)) {
+        return Error{ErrorKind::internal, "the user interface cannot be attached to the window"};
+    }
+    *started = 2;
+    if (!ImGui_ImplOpenGL3_Init("#version 450 core")) {
+        return Error{ErrorKind::internal, "the user interface cannot draw with this OpenGL"};
+    }
+    *started = 3;
+    return Ui(std::move(started));
+}
+
+void Ui::begin() {
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+}
+
+void Ui::end() {
+    ImGui::Render();
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+}  // namespace relevo::viewer

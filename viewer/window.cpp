@@ -1,0 +1,201 @@
+#define GLFW_INCLUDE_NONE  // epoxy declares OpenGL
+#include "viewer/window.hpp"
+
+#include <algorithm>
+
+#include <GLFW/glfw3.h>
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "viewer/gl_check.hpp"
+
+namespace relevo::viewer {
+
+namespace {
+
+/// A button that went up within this many pixels of where it went down was a click, not a drag.
+constexpr double kClickPx = 4;
+
+std::string glfw_error() {
+    const char* text = nullptr;
+    glfwGetError(&text);
+    return text != nullptr ? text : "unknown reason";
+}
+
+Error no_window(const std::string& why) {
+    return {
+        ErrorKind::internal,
+        fmt::format(
+            "no window can be opened: {}. Where there is no display, \"relevo render\" draws pictures", why)};
+}
+
+}  // namespace
+
+struct Window::State {
+    GLFWwindow* window = nullptr;
+    Input now;       // what poll() gave
+    Input gathered;  // what the callbacks have seen since
+
+    struct Press {
+        bool down = false;
+        bool dragging = false;
+        glm::dvec2 at{0};
+    };
+    Press left, right;
+
+    void cursor_moved(const glm::dvec2& to) {
+        const auto drag = [&](Press& press, glm::dvec2& sum) {
+            if (!press.down) return;
+            if (!press.dragging && glm::distance(to, press.at) > kClickPx) press.dragging = true;
+            if (press.dragging) sum += to - gathered.cursor;
+        };
+        drag(left, gathered.drag_left);
+        drag(right, gathered.drag_right);
+        gathered.cursor = to;
+        gathered.cursor_inside = true;
+        gathered.anything = true;
+    }
+
+    void button(int which, int action) {
+        gathered.anything = true;
+        Press* press = which == GLFW_MOUSE_BUTTON_LEFT    ? &left
+                       : which == GLFW_MOUSE_BUTTON_RIGHT ? &right
+                                                          : nullptr;
+        if (press == nullptr) return;
+        if (action == GLFW_PRESS) {
+            *press = {true, false, gathered.cursor};
+            if (press == &right) gathered.right_pressed_at = gathered.cursor;
+        } else {
+            if (press == &left && press->down && !press->dragging) gathered.clicks.push_back(press->at);
+            press->down = false;
+        }
+    }
+};
+
+void Window::Release::operator()(State* state) const {
+    if (state->window != nullptr) glfwDestroyWindow(state->window);
+    glfwTerminate();
+    delete state;
+}
+
+Window::Window(std::unique_ptr<State, Release> state) : state_(std::move(state)) {}
+
+Result<Window> Window::create(int width, int height, const std::string& title) {
+    if (glfwInit() != GLFW_TRUE) return no_window(glfw_error());
+    std::unique_ptr<State, Release> state(new State);
+    glfwWindowHint(GLFW_CLIENT_API, GLFW_OPENGL_API);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, GLFW_TRUE);
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);  // the renderer has its own
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    state->window = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
+    if (state->window == nullptr) return no_window(glfw_error() + " (OpenGL 4.5 is needed)");
+    glfwMakeContextCurrent(state->window);
+    glfwSwapInterval(1);
+    if (auto done = prepare_gl(); !done) return done.error();
+
+    glfwSetWindowUserPointer(state->window, state.get());
+    glfwSetKeyCallback(state->window, [](GLFWwindow* window, int key, int, int action, int) {
+        auto* to = static_cast<State*>(glfwGetWindowUserPointer(window));
+        to->gathered.anything = true;
+        if (action == GLFW_PRESS) to->gathered.pressed.push_back(key);
+    });
+    glfwSetCursorPosCallback(state->window, [](GLFWwindow* window, double x, double y) {
+        auto* to = static_cast<State*>(glfwGetWindowUserPointer(window));
+        int inside = 1;
+        int pixels = 1;
+        glfwGetWindowSize(window, &inside, nullptr);
+        glfwGetFramebufferSize(window, &pixels, nullptr);
+        to->cursor_moved(glm::dvec2(x, y) * (static_cast<double>(pixels) / std::max(inside, 1)));
+    });
+    glfwSetMouseButtonCallback(state->window, [](GLFWwindow* window, int button, int action, int) {
+        static_cast<State*>(glfwGetWindowUserPointer(window))->button(button, action);
+    });
+    glfwSetScrollCallback(state->window, [](GLFWwindow* window, double, double y) {
+        auto* to = static_cast<State*>(glfwGetWindowUserPointer(window));
+        to->gathered.wheel += y;
+        to->gathered.anything = true;
+    });
+    glfwSetCursorEnterCallback(state->window, [](GLFWwindow* window, int entered) {
+        auto* to = static_cast<State*>(glfwGetWindowUserPointer(window));
+        to->gathered.cursor_inside = entered == GLFW_TRUE;
+        to->gathered.anything = true;
+    });
+    glfwSetFramebufferSizeCallback(state->window, [](GLFWwindow* window, int, int) {
+        static_cast<State*>(glfwGetWindowUserPointer(window))->gathered.anything = true;
+    });
+    glfwSetWindowRefreshCallback(state->window, [](GLFWwindow* window) {
+        static_cast<State*>(glfwGetWindowUserPointer(window))->gathered.anything = true;
+    });
+    return Window(std::move(state));
+}
+
+GLFWwindow* Window::handle() const {
+    return state_->window;
+}
+bool Window::should_close() const {
+    return glfwWindowShouldClose(state_->window) == GLFW_TRUE;
+}
+void Window::close() {
+    glfwSetWindowShouldClose(state_->window, GLFW_TRUE);
+}
+
+glm::ivec2 Window::size() const {
+    glm::ivec2 size{0};
+    glfwGetFramebufferSize(state_->window, &size.x, &size.y);
+    return size;
+}
+
+double Window::scale() const {
+    float scale = 1;
+    glfwGetWindowContentScale(state_->window, &scale, nullptr);
+    return std::clamp(static_cast<double>(scale), 0.5, 8.0);
+}
+
+const Input& Window::poll(double wait_s) {
+    if (wait_s > 0) {
+        glfwWaitEventsTimeout(wait_s);
+    } else {
+        glfwPollEvents();
+    }
+    Input& gathered = state_->gathered;
+    state_->now = gathered;
+    Input fresh;
+    fresh.cursor = gathered.cursor;
+    fresh.cursor_inside = gathered.cursor_inside;
+    gathered = fresh;
+    return state_->now;
+}
+
+bool Window::held(int key) const {
+    return glfwGetKey(state_->window, key) == GLFW_PRESS;
+}
+
+bool Window::mouse_held() const {
+    return state_->left.down || state_->right.down;
+}
+
+void Window::set_clipboard(const std::string& text) {
+    glfwSetClipboardString(state_->window, text.c_str());
+}
+
+Picture Window::read_back() const {
+    const glm::ivec2 pixels = size();
+    Picture picture(pixels.x, pixels.y);
+    std::vector<std::uint8_t> row(4 * static_cast<std::size_t>(pixels.x));
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+    for (int y = 0; y < pixels.y; ++y) {
+        glReadPixels(0, pixels.y - 1 - y, pixels.x, 1, GL_RGBA, GL_UNSIGNED_BYTE, row.data());
+        for (int x = 0; x < pixels.x; ++x) std::copy_n(row.data() + 4 * x, 3, picture.pixel(x, y));
+    }
+    return picture;
+}
+
+void Window::show() {
+    glfwSwapBuffers(state_->window);
+}
+
+}  // namespace relevo::viewer
