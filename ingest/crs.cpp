@@ -20,17 +20,16 @@ std::string code_of(const PJ* object) {
 }
 
 /// The EPSG code of a CRS that carries none but is one in all that matters (an old USGS DEM names nothing,
-/// for instance). PROJ's confidence of 90 means equivalent up to names.
+/// for instance). PROJ's list also holds CRSs that merely could be meant.
 std::string identified_code(PJ_CONTEXT* context, const PJ* crs) {
-    int* confidence = nullptr;
-    PJ_OBJ_LIST* list = proj_identify(context, crs, "EPSG", nullptr, &confidence);
+    PJ_OBJ_LIST* list = proj_identify(context, crs, "EPSG", nullptr, nullptr);
     std::string code;
-    if (list != nullptr && proj_list_get_count(list) == 1 && confidence[0] >= 90) {
-        const PjPtr match{proj_list_get(context, list, 0)};
-        code = code_of(match.get());
+    for (int i = 0; list != nullptr && code.empty() && i < proj_list_get_count(list); ++i) {
+        const PjPtr match{proj_list_get(context, list, i)};
+        if (proj_is_equivalent_to_with_ctx(context, match.get(), crs, PJ_COMP_EQUIVALENT) != 0)
+            code = code_of(match.get());
     }
     proj_list_destroy(list);
-    proj_int_list_destroy(confidence);
     return code;
 }
 
