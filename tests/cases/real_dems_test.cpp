@@ -1,0 +1,64 @@
+// The guarantee on real elevation models, from the file to the measured picture: imported as a user would,
+// meshed with the bounded metric, and judged by the oracle. `relevo check` does the same with more views.
+
+#include <gtest/gtest.h>
+
+#include "lod/scene_check.hpp"
+#include "tests/ingest/importing.hpp"
+#include "tests/lod/scratch_scene.hpp"
+#include "tests/shared_data.hpp"
+
+namespace relevo::lod {
+namespace {
+
+struct RealDem {
+    const char* name;
+    const char* file;
+    const char* crs;  // where the file does not say
+};
+
+void PrintTo(const RealDem& dem, std::ostream* out) {
+    *out << dem.file;
+}
+
+const RealDem kDems[] = {
+    {"everest", "mountains/mt_everest_90m.tif", ""},           // voids, extreme relief
+    {"baltoro", "mountains/baltoro.tif", ""},                  // not square
+    {"bigtujunga", "mountains/bigtujunga.tif", ""},            // warped from UTM
+    {"nice", "coast/N43E007.hgt.zip", ""},                     // coast, voids
+    {"netherlands", "coast/netherlands_30s.nc", "EPSG:4326"},  // coarse: the earth is round
+};
+
+class RealDems : public testing::TestWithParam<RealDem> {};
+
+TEST_P(RealDems, KeepTheErrorOnEveryView) {
+    RELEVO_NEEDS_DATA(GetParam().file);
+    const test::SceneFolder folder;
+    ingest::ImportOptions options = test::options_for(test::shared_data(GetParam().file));
+    if (*GetParam().crs != '\0') options.source.crs = GetParam().crs;
+    const auto imported = ingest::import_scene(options, folder / "real.relevo", false);
+    ASSERT_TRUE(imported) << imported.error().message;
+    const auto scene = Scene::open(folder / "real.relevo");
+    ASSERT_TRUE(scene) << scene.error().message;
+    const auto terrain = Terrain::load(*scene, ErrorMetric::bounded);
+    ASSERT_TRUE(terrain) << terrain.error().message;
+
+    const auto cameras = sample_views(*terrain, 8, 20261122, 480, 270);
+    for (const double tau : {0.5, 2.0}) {
+        for (const bool morph : {false, true}) {
+            const ViewsCheck check = check_views(*terrain, ErrorMetric::bounded, cameras, tau, morph);
+            EXPECT_LE(check.max_px, tau);
+            EXPECT_GT(check.max_px, 0.05 * tau) << "the bound is of use";
+            EXPECT_GE(check.views_with_ground, 6);
+            EXPECT_EQ(check.uncovered_posts, 0u);
+            EXPECT_EQ(check.t_vertices, 0);
+            EXPECT_EQ(check.torn_posts, 0);
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalogue, RealDems, testing::ValuesIn(kDems),
+                         [](const auto& dem) { return std::string(dem.param.name); });
+
+}  // namespace
+}  // namespace relevo::lod
