@@ -101,14 +101,19 @@ double arc_length(double distance, double k, double p0, double p1) {
 
 /// Length over the ground from one distance to another within a leg.
 double ground_length(const GridPath& path, const Leg& leg, const Scene& scene, double begin, double end) {
-    constexpr double kLongestStep = 5000;  // m: there a geodesic is straight in the grid, and N even, to 1e-6
+    // In steps so short that a geodesic is straight in the grid and N is even; and so low that it is no
+    // matter where in the step the surface is steep: 10 m of height are 1.6e-6 of k.
+    constexpr double kLongestStep = 5000;
+    constexpr double kHighestStep = 10;
     const geo::GridFrame& frame = scene.info().frame;
     const auto undulation = [&](const geo::GridPosition& place) {
         return scene.undulations().at(
             geo::GridPosition{std::clamp(place.column, 0.0, static_cast<double>(frame.columns - 1)),
                               std::clamp(place.row, 0.0, static_cast<double>(frame.rows - 1))});
     };
-    const int steps = static_cast<int>(std::ceil((end - begin) / kLongestStep));
+    const double rise = leg.height(path, end) - leg.height(path, begin);
+    const int steps =
+        static_cast<int>(std::ceil(std::max((end - begin) / kLongestStep, std::abs(rise) / kHighestStep)));
     double sum = 0;
     for (int i = 0; i < steps; ++i) {
         const double s0 = begin + (end - begin) * i / steps;
