@@ -1,0 +1,104 @@
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/run_program.hpp"
+#include "tests/lod/scratch_scene.hpp"
+
+namespace relevo::test {
+namespace {
+
+class Info : public testing::Test {
+  protected:
+    void SetUp() override { ASSERT_TRUE(write_scene(parts_, path_)); }
+
+    std::string quoted() const { return fmt::format("'{}'", path_.string()); }
+
+    SceneFolder folder_;
+    std::filesystem::path path_ = folder_ / "made up.relevo";
+    SceneParts parts_ = made_up_scene(600, 40);
+};
+
+TEST_F(Info, JsonHasTheKeysOfTheContract) {
+    const Run run = relevo("info --json " + quoted());
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+    const auto json = nlohmann::json::parse(run.out, nullptr, false);
+    ASSERT_TRUE(json.is_object()) << run.out;
+    for (const char* key : {"format_version",
+                            "extent",
+                            "frame",
+                            "n",
+                            "columns",
+                            "rows",
+                            "step_x",
+                            "step_y",
+                            "step_unit",
+                            "vertical_datum",
+                            "vertical_assumed",
+                            "height_min_m",
+                            "height_max_m",
+                            "valid_posts",
+                            "void_posts",
+                            "filled_posts",
+                            "sea_posts",
+                            "resampling",
+                            "sources",
+                            "bytes",
+                            "bytes_per_post"}) {
+        EXPECT_TRUE(json.contains(key)) << key;
+    }
+    for (const char* key : {"name", "sha256", "crs", "columns", "rows"}) {
+        EXPECT_TRUE(json["sources"][0].contains(key)) << key;
+    }
+    const geo::GridFrame& frame = parts_.info.frame;
+    EXPECT_EQ(json["n"], 10);
+    EXPECT_EQ(json["columns"], 600);
+    EXPECT_EQ(json["extent"]["west"], frame.west);
+    EXPECT_EQ(json["extent"]["north"], frame.north);
+    EXPECT_NEAR(json["extent"]["east"], frame.west + 599 * frame.step_x, 1e-12);
+    EXPECT_NEAR(json["extent"]["south"], frame.north - 39 * frame.step_y, 1e-12);
+    EXPECT_EQ(json["vertical_datum"], "EGM96");
+    EXPECT_EQ(json["vertical_assumed"], true);
+    EXPECT_EQ(json["valid_posts"].get<int>() + json["void_posts"].get<int>(), 600 * 40);
+    EXPECT_TRUE(json["sea_posts"].is_null());
+
+    std::uint64_t bytes = 0;  // of the data files, as the file system counts them
+    for (const auto& [name, text] : all_files(path_)) {
+        if (name.ends_with(".tif")) bytes += text.size();
+    }
+    EXPECT_EQ(json["bytes"], bytes);
+    EXPECT_NEAR(json["bytes_per_post"], static_cast<double>(bytes) / (600 * 40), 1e-9);
+}
+
+TEST_F(Info, TextSaysWhatWasAssumed) {
+    const Run run = relevo("info " + quoted());
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_NE(run.out.find("EGM96 (assumed"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("made-up.tif"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("37.1000000 N"), std::string::npos) << run.out;
+}
+
+TEST_F(Info, IsTheSameInAnyLocale) {
+    const Run plain = relevo("info --json " + quoted());
+    const Run german = relevo("info --json " + quoted(), "LC_ALL=de_DE.UTF-8");
+    EXPECT_EQ(plain.out, german.out);
+}
+
+TEST_F(Info, StatusSaysWhoseFaultItIs) {
+    EXPECT_EQ(relevo("info").status, 2);
+    EXPECT_EQ(relevo("info --nonsense " + quoted()).status, 2);
+    EXPECT_EQ(relevo("info '/no/such.relevo'").status, 3);
+    const Run none = relevo("info '" + folder_.path().string() + "'");
+    EXPECT_EQ(none.status, 3);
+    EXPECT_NE(none.err.find("is not a scene"), std::string::npos) << none.err;
+    EXPECT_EQ(none.out, "");
+
+    replace(path_ / "scene.json", contents(path_ / "scene.json").substr(0, 200));
+    const Run cut = relevo("info --json " + quoted());
+    EXPECT_EQ(cut.status, 4);
+    EXPECT_NE(cut.err.find("scene.json"), std::string::npos) << cut.err;
+    EXPECT_EQ(cut.out, "");
+}
+
+}  // namespace
+}  // namespace relevo::test
