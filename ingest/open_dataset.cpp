@@ -8,7 +8,6 @@
 #include <cpl_string.h>
 #include <fmt/format.h>
 
-#include "ingest/gdal_messages.hpp"
 #include "ingest/refusal.hpp"
 
 namespace relevo::ingest {
@@ -81,10 +80,9 @@ bool is_zip(const std::string& input) {
 
 }  // namespace
 
-Result<OpenDataset> open_dataset(const std::string& input) {
+Result<OpenDataset> open_dataset(const std::string& input, const GdalMessages& messages) {
     GDALAllRegister();
     const OptionInScope half_pixel{"GTIFF_POINT_GEO_IGNORE", "NO"};
-    const GdalMessages messages;
 
     OpenDataset opened;
     std::error_code ignored;

@@ -7,6 +7,7 @@
 #include <gdal_priv.h>
 
 #include "geo/result.hpp"
+#include "ingest/gdal_messages.hpp"
 
 namespace relevo::ingest {
 
@@ -27,6 +28,7 @@ struct OpenDataset {
 /// Opens an input as GDAL does, with three additions: an archive NAME.zip with one raster in it stands for
 /// that raster; so does a container (NetCDF, HDF) with one variable; and the half pixel of pixel-is-point
 /// files is applied whatever the environment says.
-Result<OpenDataset> open_dataset(const std::string& input);
+/// \param messages  what GDAL says, for the error's message
+Result<OpenDataset> open_dataset(const std::string& input, const GdalMessages& messages);
 
 }  // namespace relevo::ingest

@@ -26,7 +26,7 @@ bool is_picture(GDALColorInterp interpretation) {
 Result<Source> Source::open(const SourceRequest& request) {
     Source source;
     const GdalMessages messages;
-    auto opened = open_dataset(request.input);
+    auto opened = open_dataset(request.input, messages);
     if (!opened) return opened.error();
     source.opened_ = std::move(*opened);
     source.columns_ = source.opened_.dataset->GetRasterXSize();
@@ -73,6 +73,9 @@ Result<void> Source::choose_band() {
         picture = picture || is_picture(interpretation);
         if (interpretation != GCI_AlphaBand) candidates.push_back(i);
     }
+    // Colours that are not named as such: nobody keeps heights in several bands of bytes.
+    const bool bytes = opened_.dataset->GetRasterBand(1)->GetRasterDataType() == GDT_Byte;
+    picture = picture || (candidates.size() >= 3 && bytes);
     if (picture)
         return refusal(
             name(), "it looks like an image, not like heights (colours or a palette)",

@@ -70,9 +70,13 @@ TEST(SourceRefuses, PicturesAndSeveralBands) {
     EXPECT_TRUE(test::says(refusal_of(request_for(raster.write(folder / "rgb.tif"))),
                            {"rgb.tif", "image", "terrain-RGB"}));
     raster.creation_options = {"PHOTOMETRIC=MINISBLACK"};
+    EXPECT_TRUE(
+        test::says(refusal_of(request_for(raster.write(folder / "grey.tif"))), {"grey.tif", "image"}));
+    raster.type = GDT_Int16;
     EXPECT_TRUE(test::says(refusal_of(request_for(raster.write(folder / "three.tif"))),
                            {"3 bands", "gdal_translate -b"}));
     raster.bands = 1;
+    raster.type = GDT_Byte;
     raster.creation_options = {"PHOTOMETRIC=PALETTE"};
     EXPECT_TRUE(
         test::says(refusal_of(request_for(raster.write(folder / "palette.tif"))), {"palette.tif", "image"}));
