@@ -73,6 +73,13 @@ void look_over(ViewState& view, const lod::Terrain& terrain, const lod::SceneInf
     }
     look_from_south(view, heights, target, far);
     view.roll = geo::Degrees{0};
+    // Nobody needs 17 digits of a view that we chose: a short string is easier to pass on.
+    const auto rounded = [](double value, double parts) { return std::round(value * parts) / parts; };
+    view.place = {geo::Degrees{rounded(view.place.lat.value, 1e6)},
+                  geo::Degrees{rounded(view.place.lon.value, 1e6)}};
+    view.H.m = rounded(view.H.m, 10);
+    view.heading.value = geo::wrapped_360(geo::Degrees{rounded(view.heading.value, 100)}).value;
+    view.pitch.value = rounded(view.pitch.value, 100);
 }
 
 }  // namespace relevo::viewer

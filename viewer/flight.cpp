@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -11,6 +10,7 @@
 #include "viewer/camera.hpp"
 #include "viewer/flight_controls.hpp"
 #include "viewer/flight_keys.hpp"
+#include "viewer/frame_times.hpp"
 #include "viewer/gl_check.hpp"
 #include "viewer/hud.hpp"
 #include "viewer/mesher.hpp"
@@ -27,14 +27,6 @@ using Clock = std::chrono::steady_clock;
 
 double ms_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-/// Value below which this part of the samples lies.
-double quantile(std::vector<double> samples, double part) {
-    if (samples.empty()) return 0;
-    const auto at = static_cast<std::size_t>(std::ceil(part * static_cast<double>(samples.size() - 1)));
-    std::nth_element(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(at), samples.end());
-    return samples[at];
 }
 
 /// One flight: the window, what draws in it, and the state that its user changes.
@@ -74,9 +66,9 @@ class Flight {
             if (auto done = frame(input, size.x, size.y); !done) return done.error();
             if (options_.frames != 0 && figures_.frames >= options_.frames) window_.close();
         }
-        figures_.frame_ms_median = quantile(frame_ms_, 0.5);
-        figures_.frame_ms_p99 = quantile(frame_ms_, 0.99);
-        figures_.refine_ms_median = quantile(refine_ms_, 0.5);
+        figures_.frame_ms_median = frame_times_.quantile(0.5);
+        figures_.frame_ms_p99 = frame_times_.quantile(0.99);
+        figures_.refine_ms_median = refine_times_.quantile(0.5);
         figures_.view = view_;
         return figures_;
     }
@@ -106,12 +98,12 @@ class Flight {
             if (!made) return made.error();
             target_.emplace(std::move(*made));
         }
-        bool screenshot = false;
-        for (const int key : input.pressed) screenshot |= press(key, width, height);
         controls_.steer(view_, window_, input, dt, width, height);
-
-        const lod::View view(camera_of(view_, heights_, width, height));
-        if (auto done = read_ground(view, input); !done) return done;
+        if (auto done = read_ground(view_in(width, height), input); !done) return done;
+        // After the ground is read: what a key copies is what the cursor, moved in the same moment, is at.
+        bool screenshot = false;
+        for (const Input::Key& key : input.pressed) screenshot |= press(key, width, height);
+        const lod::View view = view_in(width, height);
         if (auto done = draw(view); !done) return done;
         draw_hud(view);
         if (screenshot) {
@@ -119,8 +111,15 @@ class Flight {
         }
         window_.show();
         if (auto done = gl_check("drawing the window"); !done) return done;
-        count(ms_since(start), width, height);
+        frame_times_.add(ms_since(start));
+        figures_.frames = frame_times_.count();
+        figures_.width = width;
+        figures_.height = height;
         return {};
+    }
+
+    lod::View view_in(int width, int height) const {
+        return lod::View(camera_of(view_, heights_, width, height));
     }
 
     /// What is under the cursor and in the middle: the place by a ray, the value from the full data.
@@ -161,7 +160,7 @@ class Flight {
     Result<void> draw(const lod::View& view) {
         const auto start = Clock::now();
         const lod::Mesh& mesh = mesher_.mesh(view, view_);
-        refine_ms_.push_back(ms_since(start));
+        refine_times_.add(ms_since(start));
         figures_.triangles = mesh.triangles();
         renderer_.upload(mesh);
         const auto drawn = renderer_.draw(view,
@@ -184,7 +183,7 @@ class Flight {
                                  .above_ground_m = controls_.above_ground(view_),
                                  .speed_m_s = controls_.speed(view_),
                                  .triangles = figures_.triangles,
-                                 .frame_ms = shown_ms_,
+                                 .frame_ms = frame_times_.shown(),
                                  .middle_distance_m = middle_distance_,
                                  .message = message_,
                                  .keys_shown = keys_shown_};
@@ -195,7 +194,7 @@ class Flight {
     }
 
     /// Does what a key says; true asks for a screenshot of this frame.
-    bool press(int key, int width, int height) {
+    bool press(const Input::Key& key, int width, int height) {
         switch (press_key(view_, key)) {
             case KeyAction::none:
                 break;
@@ -213,6 +212,9 @@ class Flight {
                 break;
             case KeyAction::screenshot:
                 return true;
+            case KeyAction::close:
+                window_.close();
+                break;
             case KeyAction::whole_scene:
                 look_over(view_, terrain_, scene_.info(), heights_, width, height);
                 break;
@@ -244,16 +246,6 @@ class Flight {
         return {};
     }
 
-    void count(double ms, int width, int height) {
-        // The first frame compiles the programs.
-        if (figures_.frames == 1) frame_ms_.clear();
-        frame_ms_.push_back(ms);
-        shown_ms_ += (ms - shown_ms_) * (figures_.frames < 5 ? 1 : 0.15);
-        ++figures_.frames;
-        figures_.width = width;
-        figures_.height = height;
-    }
-
     const lod::Scene& scene_;
     const lod::Terrain& terrain_;
     const EyeHeight& heights_;
@@ -279,9 +271,8 @@ class Flight {
     int screenshots_ = 0;
 
     FlightFigures figures_;
-    std::vector<double> frame_ms_;
-    std::vector<double> refine_ms_;
-    double shown_ms_ = 0;
+    FrameTimes frame_times_;
+    FrameTimes refine_times_;
 };
 
 }  // namespace

@@ -19,8 +19,10 @@ double stepped(double value, int by, double per_doubling, double least, double m
 
 }  // namespace
 
-KeyAction press_key(ViewState& view, int key) {
-    switch (key) {
+KeyAction press_key(ViewState& view, const Input::Key& key) {
+    if (key.control && key.number == GLFW_KEY_Q) return KeyAction::close;
+    if (key.control && key.number != GLFW_KEY_C) return KeyAction::none;
+    switch (key.number) {
         case GLFW_KEY_EQUAL:
         case GLFW_KEY_KP_ADD:
             view.tau_px = stepped(view.tau_px, +1, 2, 0.125, 64);

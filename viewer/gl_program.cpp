@@ -23,7 +23,7 @@ class Shader {
         std::array<const GLchar*, 3> strings{};
         std::array<GLint, 3> lengths{};
         for (std::size_t i = 0; i < parts.size(); ++i) {
-            strings[i] = parts[i].data();
+            strings[i] = parts[i].empty() ? "" : parts[i].data();  // OpenGL takes no null
             lengths[i] = static_cast<GLint>(parts[i].size());
         }
         glShaderSource(name_, static_cast<GLsizei>(parts.size()), strings.data(), lengths.data());

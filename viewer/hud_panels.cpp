@@ -64,7 +64,7 @@ float view_panel(const HudContent& content) {
         fmt::format("eye {}", eye_text(view.H, *content.vertical)) +
         (content.above_ground_m ? fmt::format(", {:.1f} m above ground", *content.above_ground_m) : ""));
     panel.line(fmt::format("heading {:.1f}\u00b0  pitch {:.1f}\u00b0", view.heading.value, view.pitch.value));
-    panel.line(fmt::format("speed {:.3g} m/s", content.speed_m_s));
+    panel.line(fmt::format("speed {:.{}f} m/s", content.speed_m_s, content.speed_m_s < 10 ? 1 : 0));
     ImGui::Separator();
     panel.line(fmt::format("{} triangles", content.triangles));
     panel.line(view.method == Method::full
@@ -127,7 +127,8 @@ void keys_panel() {
                                     {"C", "copy the coordinates under the cursor"},
                                     {"V", "copy the view (for --at)"},
                                     {"P, F12", "screenshot"},
-                                    {"F1", "this list"}};
+                                    {"F1", "this list"},
+                                    {"Ctrl Q", "close"}};
     ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit);
     for (const Key& key : kKeys) {
         ImGui::TableNextRow();

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <vector>
 
@@ -11,9 +10,12 @@ namespace relevo::viewer {
 /// What the window's user did since the last frame. Positions are in pixels of the picture, (0, 0) upper
 /// left.
 struct Input {
-    enum class Button { left, right };
+    struct Key {
+        int number = 0;        ///< GLFW's
+        bool control = false;  ///< held with it
+    };
 
-    std::vector<int> pressed;  ///< keys, by GLFW's numbers, in order
+    std::vector<Key> pressed;  ///< in order
     glm::dvec2 cursor{0};
     bool cursor_inside = false;
     glm::dvec2 drag_left{0};  ///< of the cursor while the button was down and no longer a click

@@ -17,8 +17,8 @@ namespace relevo::viewer {
 struct PictureRequest {
     int width = 1280;  ///< 1 to kLargestPicture
     int height = 720;
-    int samples = 4;                                 ///< 1, 4 or 8 a pixel
-    std::optional<std::array<float, 3>> background;  ///< flat, 0 to 1, instead of sky and haze
+    int samples = 4;                                      ///< 1, 4 or 8 a pixel
+    std::optional<std::array<float, 3>> background = {};  ///< flat, 0 to 1, instead of sky and haze
     bool measure_error = false;
 };
 inline constexpr int kLargestPicture = 16384;

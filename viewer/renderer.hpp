@@ -23,9 +23,9 @@ struct DrawSettings {
     Layer layer = Layer::hypsometric;
     bool wireframe = false;
     double exaggeration = 1;
-    SunSetting sun;
+    SunSetting sun = {};
     /// A flat colour, 0 to 1, instead of sky, horizon and haze.
-    std::optional<std::array<float, 3>> background;
+    std::optional<std::array<float, 3>> background = {};
 };
 
 /// The part of a view's picture that a target shows: pixels from the upper left corner.

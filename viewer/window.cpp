@@ -98,10 +98,10 @@ Result<Window> Window::create(int width, int height, const std::string& title) {
     if (auto done = prepare_gl(); !done) return done.error();
 
     glfwSetWindowUserPointer(state->window, state.get());
-    glfwSetKeyCallback(state->window, [](GLFWwindow* window, int key, int, int action, int) {
+    glfwSetKeyCallback(state->window, [](GLFWwindow* window, int key, int, int action, int modifiers) {
         auto* to = static_cast<State*>(glfwGetWindowUserPointer(window));
         to->gathered.anything = true;
-        if (action == GLFW_PRESS) to->gathered.pressed.push_back(key);
+        if (action == GLFW_PRESS) to->gathered.pressed.push_back({key, (modifiers & GLFW_MOD_CONTROL) != 0});
     });
     glfwSetCursorPosCallback(state->window, [](GLFWwindow* window, double x, double y) {
         auto* to = static_cast<State*>(glfwGetWindowUserPointer(window));
@@ -172,10 +172,6 @@ const Input& Window::poll(double wait_s) {
 
 bool Window::held(int key) const {
     return glfwGetKey(state_->window, key) == GLFW_PRESS;
-}
-
-bool Window::mouse_held() const {
-    return state_->left.down || state_->right.down;
 }
 
 void Window::set_clipboard(const std::string& text) {

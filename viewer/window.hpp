@@ -29,7 +29,6 @@ class Window {
     /// Takes in what happened; with a wait, sleeps until something does or the time is over. Seconds.
     const Input& poll(double wait_s);
     bool held(int key) const;
-    bool mouse_held() const;
 
     void set_clipboard(const std::string& text);
     /// The picture that is about to be shown.

@@ -1,0 +1,140 @@
+#include <cmath>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "tests/viewer/studio.hpp"
+
+namespace relevo::test {
+namespace {
+
+using viewer::Layer;
+
+constexpr double kStepM = 30.87;  // 1" of latitude at 36 degrees
+
+/// A plane that rises to the east by `rise` metres a metre.
+lod::Terrain plane(double rise) {
+    const auto frame = geographic_frame(129, 129);
+    const double east_m = frame.spacing(64).east_m;
+    return make_terrain(frame,
+                        make_heights(frame, [&](int column, int) { return 1000 + rise * east_m * column; }));
+}
+
+std::array<int, 3> centre(const viewer::Picture& picture) {
+    return picture.at(picture.width / 2, picture.height / 2);
+}
+
+void expect_near(const std::array<int, 3>& pixel, const std::array<std::uint8_t, 4>& colour, double times) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_NEAR(pixel[i], std::min(255.0, times * colour[i]), 3) << "channel " << i;
+    }
+}
+
+TEST(Colours, SlopeIsTheTrueSteepnessWhateverTheExaggeration) {
+    const auto ramp = viewer::colour_ramp(Layer::slope);
+    for (const double rise : {0.0, 0.2, 0.5773502692, 1.0}) {
+        Studio studio(plane(rise));
+        const double degrees = std::atan(rise) * 180 / 3.14159265358979;
+        const auto expected = ramp[static_cast<std::size_t>(std::lround(degrees / 60 * 255))];
+        for (const double exaggeration : {1.0, 3.0}) {
+            auto camera = above_looking_down(studio.terrain(), 64, 64, 3000);
+            camera.eye.h.m *= exaggeration;
+            const auto picture = studio.draw(
+                camera, {.layer = Layer::slope, .exaggeration = exaggeration, .background = kMagenta});
+            expect_near(centre(picture), expected, 1);
+        }
+    }
+}
+
+TEST(Colours, HillshadeIsTheCosineOfTheSunsAngle) {
+    for (const double rise : {-0.5, 0.0, 0.5}) {
+        Studio studio(plane(rise));
+        for (const char* sun : {"90,30", "270,30", "0,60"}) {
+            const auto setting = *viewer::parse_sun(sun);
+            const auto picture =
+                studio.draw(above_looking_down(studio.terrain(), 64, 64, 3000),
+                            {.layer = Layer::hillshade, .sun = setting, .background = kMagenta});
+            const double length = std::sqrt(1 + rise * rise);
+            const double azimuth = setting.direction.azimuth.radians();
+            const double elevation = setting.direction.elevation.radians();
+            const double cosine =
+                (-rise * std::cos(elevation) * std::sin(azimuth) + std::sin(elevation)) / length;
+            const double grey = 255 * (0.06 + 0.94 * std::max(cosine, 0.0));
+            EXPECT_NEAR(centre(picture)[0], grey, 3) << rise << " " << sun;
+        }
+    }
+}
+
+TEST(Colours, ExaggerationSteepensTheShade) {
+    Studio studio(plane(0.1));
+    const auto grey = [&](double exaggeration) {
+        auto camera = above_looking_down(studio.terrain(), 64, 64, 3000);
+        camera.eye.h.m *= exaggeration;
+        return centre(studio.draw(camera, {.layer = Layer::hillshade,
+                                           .exaggeration = exaggeration,
+                                           .sun = *viewer::parse_sun("90,45"),
+                                           .background = kMagenta}))[0];
+    };
+    const auto expected = [](double rise) {
+        return 255 * (0.06 + 0.94 * std::sqrt(0.5) * (1 - rise) / std::sqrt(1 + rise * rise));
+    };
+    EXPECT_NEAR(grey(1), expected(0.1), 3);
+    EXPECT_NEAR(grey(4), expected(0.4), 3);
+}
+
+// The same sun by a time and by its direction there: the one is turned into ECEF and back for every vertex.
+TEST(Colours, ATimeOfDayIsADirectionOfTheSun) {
+    Studio studio(plane(0.3));
+    const auto time = *viewer::parse_sun("2026-03-20T23:00:00Z");
+    const auto place = studio.terrain().frame().lat_lon({64, 64});
+    viewer::SunSetting direction;
+    direction.kind = viewer::SunSetting::Kind::direction;
+    direction.direction = viewer::sun_at(time, place);
+    ASSERT_GT(direction.direction.elevation.value, 10);
+    const auto camera = above_looking_down(studio.terrain(), 64, 64, 2000);
+    const auto a = studio.draw(camera, {.layer = Layer::hillshade, .sun = time, .background = kMagenta});
+    const auto b = studio.draw(camera, {.layer = Layer::hillshade, .sun = direction, .background = kMagenta});
+    EXPECT_NEAR(centre(a)[0], centre(b)[0], 1);
+}
+
+TEST(Colours, TintsRunOverTheScenesHeights) {
+    const auto frame = geographic_frame(65, 65);
+    // Two flats, with a step between them: tints are of heights, lit as flat ground is.
+    Studio studio(make_terrain(
+        frame, make_heights(frame, [](int column, int) { return column < 32 ? -50.0 : 3200.0; })));
+    const auto ramp = viewer::colour_ramp(Layer::hypsometric);
+    const double flat = 0.32 + 0.12 + 0.75 * std::sqrt(0.5);
+    for (const auto& [column, expected] : {std::pair(10, ramp.front()), std::pair(54, ramp.back())}) {
+        const auto picture = studio.draw(above_looking_down(studio.terrain(), column, 32, 200, 20, 20),
+                                         {.background = kMagenta});
+        expect_near(centre(picture), expected, flat);
+    }
+}
+
+TEST(Colours, LevelsDiffer) {
+    const auto frame = geographic_frame(129, 129);
+    Studio studio(make_terrain(frame, make_heights(frame, mountains)));
+    viewer::ViewState how;
+    how.tau_px = 8;
+    const auto camera = above_looking_down(studio.terrain(), 64, 64, 3000);
+    const auto plain = studio.draw(
+        camera, {.layer = Layer::lod, .sun = *viewer::parse_sun("0,90"), .background = kMagenta}, how);
+    std::set<std::array<int, 3>> colours;
+    for (int y = 0; y < plain.height; y += 3) {
+        for (int x = 0; x < plain.width; x += 3) colours.insert(plain.at(x, y));
+    }
+    EXPECT_GT(colours.size(), 4u);
+
+    const auto wired = studio.draw(camera, {.wireframe = true, .background = kMagenta}, how);
+    const auto bare = studio.draw(camera, {.background = kMagenta}, how);
+    int changed = 0;
+    for (int y = 0; y < wired.height; ++y) {
+        for (int x = 0; x < wired.width; ++x) changed += wired.at(x, y) != bare.at(x, y);
+    }
+    const int pixels = wired.width * wired.height;
+    EXPECT_GT(changed, pixels / 50);     // there are lines
+    EXPECT_LT(changed, pixels * 3 / 4);  // and ground between them
+}
+
+}  // namespace
+}  // namespace relevo::test

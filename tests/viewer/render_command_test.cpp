@@ -1,0 +1,134 @@
+#include <filesystem>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/run_program.hpp"
+#include "tests/viewer/scene_for_pictures.hpp"
+
+namespace relevo::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RenderCommand : public testing::Test {
+  protected:
+    RenderCommand()
+        : scene_((folder_ / "mountains.relevo").string()), picture_((folder_ / "a.png").string()) {
+        write_mountains(scene_);
+    }
+
+    test::Run render(const std::string& flags, const std::string& before = "") const {
+        return relevo("render " + scene_ + " -o " + picture_ + " --size 160x90 " + flags, before);
+    }
+
+    SceneFolder folder_;
+    std::string scene_;
+    std::string picture_;
+};
+
+TEST_F(RenderCommand, ReportsAsOneJsonObject) {
+    const auto run = render("--json --measure-error");
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+    const auto json = nlohmann::json::parse(run.out);
+    for (const char* key : {"lod", "tau_px", "triangles", "draw_calls", "refine_ms", "frame_ms",
+                            "max_error_px", "rms_error_px", "resident_mib", "gl_renderer", "at", "ocean"}) {
+        EXPECT_TRUE(json.contains(key)) << key;
+    }
+    EXPECT_EQ(json["lod"], "soar");
+    EXPECT_EQ(json["draw_calls"], 2);
+    EXPECT_GT(json["triangles"], 100);
+    EXPECT_GT(json["max_error_px"], 0);
+    EXPECT_LE(json["max_error_px"], 1);
+    EXPECT_TRUE(json["ocean"].is_null());
+    EXPECT_TRUE(fs::exists(picture_));
+}
+
+TEST_F(RenderCommand, WithoutMeasuringTheErrorIsNull) {
+    const auto run = render("--json --lod full");
+    ASSERT_EQ(run.status, 0) << run.err;
+    const auto json = nlohmann::json::parse(run.out);
+    EXPECT_TRUE(json["max_error_px"].is_null());
+    EXPECT_TRUE(json["rms_error_px"].is_null());
+    EXPECT_EQ(json["lod"], "full");
+    EXPECT_EQ(json["triangles"], 2 * 128 * 128);
+}
+
+TEST_F(RenderCommand, TheViewStringGivesTheSamePicture) {
+    const auto first = render("--json --heading 20 --layer slope --exaggeration 1.5 --sun 100,20");
+    ASSERT_EQ(first.status, 0) << first.err;
+    const std::string bytes = contents(picture_);
+    const auto json = nlohmann::json::parse(first.out);
+    fs::remove(picture_);
+    const auto again = render("--json --at " + json["at"].get<std::string>());
+    ASSERT_EQ(again.status, 0) << again.err;
+    EXPECT_EQ(nlohmann::json::parse(again.out)["at"], json["at"]);
+    EXPECT_EQ(contents(picture_), bytes);
+}
+
+TEST_F(RenderCommand, WritesPngJpegAndTiff) {
+    for (const auto& [name, magic] : {std::pair("b.png", "\x89PNG"), std::pair("b.jpg", "\xff\xd8\xff"),
+                                      std::pair("b.tif", "II*"), std::pair("B.TIFF", "II*")}) {
+        const auto file = folder_ / name;
+        const auto run = relevo("render " + scene_ + " -o " + file.string() + " --size 40x30");
+        ASSERT_EQ(run.status, 0) << run.err;
+        EXPECT_EQ(contents(file).substr(0, std::string(magic).size()), magic) << name;
+    }
+    // And nothing else: no unfinished files.
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()), 5);
+}
+
+TEST_F(RenderCommand, RefusesWhatMakesNoSense) {
+    for (const char* flags : {"--fov 0",
+                              "--fov 180",
+                              "--tau 0",
+                              "--tau -1",
+                              "--eye 91,0,0",
+                              "--eye 1,2",
+                              "--eye here",
+                              "--pitch 100",
+                              "--layer imagery",
+                              "--layer terrain",
+                              "--lod lstr",
+                              "--metric best",
+                              "--morph maybe",
+                              "--sun noon",
+                              "--samples 3",
+                              "--background red",
+                              "--background 0,0,256",
+                              "--at 1,2",
+                              "--exaggeration -1",
+                              "--size 0x10",
+                              "--size 10x16385",
+                              "--size 10",
+                              "--size 10x10x10",
+                              "--unknown"}) {
+        const auto run = relevo("render " + scene_ + " -o " + picture_ + " " + flags);
+        EXPECT_EQ(run.status, 2) << flags << ": " << run.err;
+        EXPECT_FALSE(run.err.empty()) << flags;
+    }
+    EXPECT_EQ(relevo("render " + scene_ + " -o " + (folder_ / "a.bmp").string()).status, 2);
+    EXPECT_EQ(relevo("render " + (folder_ / "none.relevo").string() + " -o " + picture_).status, 3);
+    EXPECT_FALSE(fs::exists(picture_));
+}
+
+TEST_F(RenderCommand, AFolderThatIsNotThereIsAnErrorNotAPicture) {
+    const auto run = relevo("render " + scene_ + " -o " + (folder_ / "no").string() + "/a.png --size 20x20");
+    EXPECT_EQ(run.status, 1);
+    EXPECT_NE(run.err.find("a.png"), std::string::npos) << run.err;
+}
+
+// A driver without OpenGL 4.5, for which Mesa's older software renderer stands.
+TEST_F(RenderCommand, ABrokenOpenGlIsAnErrorNotAPicture) {
+    for (const char* before : {"GALLIUM_DRIVER=softpipe", "MESA_GL_VERSION_OVERRIDE=3.3",
+                               "EGL_PLATFORM=none __EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent"}) {
+        const auto run = render("", before);
+        EXPECT_EQ(run.status, 1) << before << run.err;
+        EXPECT_NE(run.err.find("OpenGL"), std::string::npos) << run.err;
+        EXPECT_FALSE(fs::exists(picture_));
+    }
+}
+
+}  // namespace
+}  // namespace relevo::test

@@ -1,0 +1,199 @@
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <regex>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/run_program.hpp"
+#include "tests/viewer/desktop.hpp"
+#include "tests/viewer/scene_for_pictures.hpp"
+
+namespace relevo::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The window for real: a display of its own, keys and mouse by xdotool, what it wrote and what it shows.
+class WindowTest : public testing::Test {
+  protected:
+    void SetUp() override {
+        for (const char* tool : {"Xvfb", "xdotool"}) {
+            if (std::system(fmt::format("command -v {} >/dev/null", tool).c_str()) != 0) {
+                GTEST_SKIP() << tool << " is not installed";
+            }
+        }
+        scene_ = (folder_ / "mountains.relevo").string();
+        write_mountains(scene_);
+        ASSERT_TRUE(desktop_.start()) << "Xvfb does not start";
+    }
+
+    /// Opens the window, and waits until it has shown its first frames.
+    void open(const std::string& flags) {
+        program_ = desktop_.run({RELEVO_PROGRAM, "view", scene_, "--size", "800x600", "--screenshot-dir",
+                                 folder_.path().string()},
+                                flags, folder_ / "out", folder_ / "err");
+        ASSERT_TRUE(desktop_.wait_for_window()) << contents(folder_ / "err");
+    }
+
+    /// Waits until the program has said something that matches, up to 20 seconds; the first group of the
+    /// match.
+    std::string said(const std::string& pattern) {
+        std::smatch match;
+        for (int i = 0; i < 200; ++i) {
+            text_ = contents(folder_ / "out") + contents(folder_ / "err");
+            if (std::regex_search(text_, match, std::regex(pattern))) return match.str(match.size() - 1);
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        }
+        ADD_FAILURE() << "nothing like " << pattern << " in:\n" << text_;
+        return {};
+    }
+
+    void point_at(int x, int y) { desktop_.xdotool(fmt::format("mousemove {} {}", x, y)); }
+    void press(const std::string& keys) { desktop_.xdotool("key " + keys); }
+
+    SceneFolder folder_;
+    std::string scene_;
+    Desktop desktop_;
+    std::string text_;
+    pid_t program_ = 0;
+};
+
+// Straight down on the middle: up in the picture is north.
+constexpr const char* kMap = "--at 35.982222,138.017778,6000/heading=0/pitch=-90/fov=30";
+
+TEST_F(WindowTest, TwoClicksMeasureWhatTheCommandLineMeasures) {
+    open(kMap);
+    point_at(250, 300);
+    press("c");
+    const std::string first = said("coordinates ([-0-9.]+, [-0-9.]+), ");
+    desktop_.xdotool("click 1");
+    point_at(550, 200);
+    press("c");
+    const std::string second = said("coordinates[^\n]*\ncoordinates ([-0-9.]+, [-0-9.]+), ");
+    desktop_.xdotool("click 1");
+    const double metres = std::stod(said("distance ([0-9.]+) m"));
+    const auto bare = [](std::string place) { return place.erase(place.find(' '), 1); };
+    const auto measured =
+        relevo(fmt::format("measure {} line {} {} --json", scene_, bare(first), bare(second)));
+    ASSERT_EQ(measured.status, 0) << measured.err;
+    // The copied places are rounded to 7 decimals of a degree: 1 cm.
+    EXPECT_NEAR(nlohmann::json::parse(measured.out)["geodesic_m"].get<double>(), metres, 0.03);
+    EXPECT_GT(metres, 500);
+}
+
+TEST_F(WindowTest, TheHeightUnderTheCursorIsThatOfTheFullDataWhateverTau) {
+    open(std::string(kMap) + "/tau=60");
+    point_at(400, 250);
+    press("c");
+    const std::string copied = said("coordinates ([^\n]+)");
+    std::smatch parts;
+    ASSERT_TRUE(std::regex_match(copied, parts, std::regex("([-0-9.]+), ([-0-9.]+), ([-0-9.]+)"))) << copied;
+    const auto measured =
+        relevo(fmt::format("measure {} point {},{} --json", scene_, parts.str(1), parts.str(2)));
+    ASSERT_EQ(measured.status, 0) << measured.err;
+    const auto json = nlohmann::json::parse(measured.out);
+    const double h = json["h_m"].is_null() ? json["H_m"].get<double>() : json["h_m"].get<double>();
+    EXPECT_NEAR(h, std::stod(parts.str(3)), 0.05);
+}
+
+TEST_F(WindowTest, KeysChangeTheViewAndTheStringBringsItBack) {
+    open(kMap);
+    point_at(400, 300);
+    press("v");
+    const std::string before = said("view ([^\n]+)");
+    press("plus plus minus l m x 3 v");
+    const std::string after = said("view [^\n]+\nview ([^\n]+)");
+    EXPECT_NE(after.find("/tau=1.414"), std::string::npos) << after;
+    EXPECT_NE(after.find("/wireframe=on"), std::string::npos) << after;
+    EXPECT_NE(after.find("/morph=off"), std::string::npos) << after;
+    EXPECT_NE(after.find("/exaggeration=1.414"), std::string::npos) << after;
+    EXPECT_NE(after.find("/layer=slope"), std::string::npos) << after;
+    const auto drawn = relevo(fmt::format("render {} -o {} --size 80x60 --json --at {}", scene_,
+                                          (folder_ / "again.png").string(), after));
+    ASSERT_EQ(drawn.status, 0) << drawn.err;
+    EXPECT_EQ(nlohmann::json::parse(drawn.out)["at"], after);
+
+    desktop_.xdotool("keydown w sleep 1 keyup w");
+    press("v");
+    const std::string moved = said("view [^\n]+\nview [^\n]+\nview ([^\n]+)");
+    EXPECT_GT(std::stod(moved), std::stod(before) + 0.001) << "W goes north here: " << moved;
+}
+
+TEST_F(WindowTest, StaysAboveTheGround) {
+    open("--at 35.982222,138.017778,2600/heading=0/pitch=-5");
+    desktop_.xdotool("keydown shift keydown q sleep 4 keyup q keyup shift");
+    press("v");
+    const std::string view = said("view ([^\n]+)");
+    std::smatch parts;
+    ASSERT_TRUE(std::regex_search(view, parts, std::regex("^([-0-9.]+,[-0-9.]+),([-0-9.]+)/")));
+    const auto measured = relevo(fmt::format("measure {} point {} --json", scene_, parts.str(1)));
+    const auto json = nlohmann::json::parse(measured.out);
+    const double ground = json["h_m"].is_null() ? json["H_m"].get<double>() : json["h_m"].get<double>();
+    EXPECT_NEAR(std::stod(parts.str(2)), ground + 2, 0.01);
+}
+
+TEST_F(WindowTest, ScreenshotsShowTheReadOutOverTheGround) {
+    open(kMap);
+    point_at(400, 300);
+    press("p");
+    const fs::path plain = said("screenshot ([^\n]+)");
+    press("F1");
+    press("F12");
+    const fs::path with_keys = said("screenshot [^\n]+\nscreenshot ([^\n]+)");
+    ASSERT_NE(plain, with_keys);
+    const auto at_rest = read_ppm(plain, folder_ / "plain.ppm");
+    const auto listed = read_ppm(with_keys, folder_ / "keys.ppm");
+    if (at_rest.width == 0) GTEST_SKIP() << "no program here to read PNG with";
+    ASSERT_EQ(at_rest.width, 800);
+    ASSERT_EQ(at_rest.height, 600);
+    const auto count = [](const viewer::Picture& picture, int x0, int y0, int x1, int y1, auto&& is) {
+        int pixels = 0;
+        for (int y = y0; y < y1; ++y) {
+            for (int x = x0; x < x1; ++x) pixels += is(picture.at(x, y));
+        }
+        return pixels;
+    };
+    const auto white = [](const std::array<int, 3>& p) { return p[0] > 200 && p[1] > 200 && p[2] > 200; };
+    const auto red = [](const std::array<int, 3>& p) { return p[0] > 200 && p[1] < 90 && p[2] < 90; };
+    EXPECT_GT(count(at_rest, 0, 0, 250, 160, white), 300) << "text of the view";
+    EXPECT_GT(count(at_rest, 150, 560, 650, 600, white), 300) << "text of the place";
+    EXPECT_GT(count(at_rest, 700, 0, 800, 100, red), 20) << "the compass's needle";
+    const auto dark = [](const std::array<int, 3>& p) { return p[0] + p[1] + p[2] < 150; };
+    EXPECT_GT(count(listed, 250, 150, 550, 450, dark), count(at_rest, 250, 150, 550, 450, dark) + 40000)
+        << "the list of keys";
+}
+
+TEST_F(WindowTest, FliesByItselfAndClosesAfterSomeFrames) {
+    open(std::string("--fly 300 --frames 12 --json ") + kMap);
+    ASSERT_EQ(desktop_.wait_for_exit(program_), 0) << contents(folder_ / "err");
+    const auto json = nlohmann::json::parse(contents(folder_ / "out"));
+    EXPECT_EQ(json["frames"], 12);
+    EXPECT_EQ(json["width"], 800);
+    EXPECT_EQ(json["height"], 600);
+    EXPECT_GT(json["frame_ms_median"], 0);
+    EXPECT_GE(json["frame_ms_p99"], json["frame_ms_median"]);
+    EXPECT_GT(json["triangles"], 10);
+    EXPECT_GT(std::stod(json["at"].get<std::string>()), 35.982222) << "it flew north";
+}
+
+TEST_F(WindowTest, ClosingTheWindowEndsTheProgramWell) {
+    open(kMap);
+    press("ctrl+q");
+    EXPECT_EQ(desktop_.wait_for_exit(program_), 0) << contents(folder_ / "err");
+    EXPECT_EQ(contents(folder_ / "err"), "");
+}
+
+TEST(Window, WithoutADisplayNamesTheWayOut) {
+    SceneFolder folder;
+    const std::string scene = (folder / "mountains.relevo").string();
+    write_mountains(scene);
+    const auto run = relevo("view " + scene, "env -u DISPLAY -u WAYLAND_DISPLAY");
+    EXPECT_EQ(run.status, 1);
+    EXPECT_NE(run.err.find("relevo render"), std::string::npos) << run.err;
+}
+
+}  // namespace
+}  // namespace relevo::test
