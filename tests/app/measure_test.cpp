@@ -1,0 +1,213 @@
+// `relevo measure` as people and scripts use it: the contract of its JSON, its exit statuses, and its figures
+// against gdallocationinfo and GeodSolve.
+
+#include <random>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "geo/geodesic.hpp"
+#include "lod/measure/point.hpp"
+#include "tests/app/run_program.hpp"
+#include "tests/geo/outside_program.hpp"
+#include "tests/lod/measured_scene.hpp"
+#include "tests/shared_data.hpp"
+
+namespace relevo::test {
+namespace {
+
+std::vector<std::string> keys_of(const nlohmann::json& json) {
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : json.items()) keys.push_back(key);
+    return keys;
+}
+
+nlohmann::json measure(const std::filesystem::path& scene, const std::string& arguments) {
+    const auto run = relevo(fmt::format("measure '{}' {} --json", scene.string(), arguments));
+    EXPECT_EQ(run.status, 0) << run.err;
+    const auto json = nlohmann::json::parse(run.out, nullptr, false);
+    EXPECT_FALSE(json.is_discarded()) << run.out;
+    return json;
+}
+
+/// A scene of UTM data, in text: what measure reads is the scene alone.
+class Measure : public testing::Test {
+  protected:
+    void SetUp() override {
+        SceneParts parts = made_up_scene(40, 30);
+        parts.info.sources[0].crs = "EPSG:32613";
+        parts.info.sources[0].crs_wkt = "EPSG:32613";
+        parts.info.sources[0].step_unit = "metre";
+        parts.info.resampling.rms_m = 0.25;
+        parts.info.resampling_method = "cubic";
+        frame = parts.info.frame;
+        heights = parts.heights;
+        const auto written = write_scene(parts, scene());
+        ASSERT_TRUE(written) << written.error().message;
+    }
+    std::filesystem::path scene() const { return folder / "a.relevo"; }
+
+    SceneFolder folder;
+    geo::GridFrame frame;
+    lod::Raster<float> heights;
+};
+
+std::string text(geo::LatLon place) {
+    return fmt::format("{:.15f},{:.15f}", place.lat.value, place.lon.value);
+}
+
+TEST_F(Measure, PointHasTheContractsKeys) {
+    const auto place = frame.lat_lon({7, 12});
+    const auto json = measure(scene(), "point " + text(place));
+    EXPECT_EQ(keys_of(json), (std::vector<std::string>{"H_m", "N_m", "class", "filled", "h_m", "lat", "lon",
+                                                       "mgrs", "modelled", "resampling_rms_m", "resolution_m",
+                                                       "source_crs", "utm", "vertical_datum"}));
+    EXPECT_EQ(json["H_m"].get<double>(), static_cast<double>(heights.at(7, 12)));
+    EXPECT_EQ(json["h_m"].get<double>(), json["H_m"].get<double>() + json["N_m"].get<double>());
+    EXPECT_NEAR(json["N_m"].get<double>(), -16.6, 2);  // EGM96 in southern Colorado
+    EXPECT_EQ(json["class"], "land");
+    EXPECT_EQ(json["vertical_datum"], "EGM96");
+    EXPECT_EQ(json["resampling_rms_m"], 0.25);
+    EXPECT_NEAR(json["resolution_m"].get<double>(), 92.5, 0.1);
+    EXPECT_EQ(json["filled"], false);
+    EXPECT_EQ(json["modelled"], false);
+    EXPECT_EQ(json["source_crs"]["code"], "EPSG:32613");
+    // The source's own CRS here is the zone's UTM.
+    const auto utm = fmt::format("13N {:.2f} {:.2f}", json["source_crs"]["x"].get<double>(),
+                                 json["source_crs"]["y"].get<double>());
+    EXPECT_EQ(json["utm"], utm);
+}
+
+TEST_F(Measure, VoidsAndOutsideHaveNoHeight) {
+    const auto hole = measure(scene(), "point " + text(frame.lat_lon({7, 1})));
+    EXPECT_EQ(hole["class"], "void");
+    EXPECT_TRUE(hole["H_m"].is_null() && hole["h_m"].is_null());
+    const auto outside = measure(scene(), "point -33.5,151.2");  // a latitude is no option
+    EXPECT_EQ(outside["class"], "outside");
+    EXPECT_TRUE(outside["H_m"].is_null() && outside["resolution_m"].is_null());
+    EXPECT_EQ(outside["lat"], -33.5);
+}
+
+TEST_F(Measure, EveryFormatIsTheSamePlace) {
+    // 37.08 N 105.31 W, to a metre at least.
+    const auto expected = measure(scene(), "point 37.08,-105.31");
+    ASSERT_EQ(expected["class"], "land");
+    for (const std::string place : {"\"37.08N 105.31W\"", "\"37d4'48\\\"N 105d18'36\\\"W\"",
+                                    "\"37 4 48 -105 18 36\"", "'37°04′48″N, 105°18′36″W'"}) {
+        const auto json = measure(scene(), "point " + place);
+        EXPECT_NEAR(json["H_m"].get<double>(), expected["H_m"].get<double>(), 1e-6) << place;
+    }
+    for (const std::string& place :
+         {expected["utm"].get<std::string>(), expected["mgrs"].get<std::string>()}) {
+        const auto json = measure(scene(), "point '" + place + "'");
+        EXPECT_NEAR(json["lat"].get<double>(), 37.08, 1e-5) << place;
+        EXPECT_NEAR(json["lon"].get<double>(), -105.31, 1e-5) << place;
+    }
+}
+
+TEST_F(Measure, LineHasTheContractsKeysAndGeodSolvesFigures) {
+    const auto from = frame.lat_lon({3, 12});
+    const auto to = frame.lat_lon({30, 20});
+    const auto json = measure(scene(), "line " + text(from) + " " + text(to));
+    EXPECT_EQ(keys_of(json), (std::vector<std::string>{"azimuth1_deg", "azimuth2_deg", "climb_m", "descent_m",
+                                                       "geodesic_m", "surface_m"}));
+    EXPECT_GT(json["surface_m"].get<double>(), json["geodesic_m"].get<double>());
+    EXPECT_NEAR(json["climb_m"].get<double>() - json["descent_m"].get<double>(),
+                static_cast<double>(heights.at(30, 20) - heights.at(3, 12)), 1e-3);
+    const auto answer =
+        ask("GeodSolve -i -p 10", {fmt::format("{:.15f} {:.15f} {:.15f} {:.15f}", from.lat.value,
+                                               from.lon.value, to.lat.value, to.lon.value)});
+    if (answer.size() == 1) {
+        EXPECT_NEAR(json["geodesic_m"].get<double>(), numbers(answer[0])[2], 1e-8);
+        EXPECT_NEAR(json["azimuth1_deg"].get<double>(), numbers(answer[0])[0], 1e-9);
+    }
+    const auto across = measure(scene(), "line " + text(from) + " 10,10");
+    EXPECT_TRUE(across["surface_m"].is_null() && across["climb_m"].is_null() &&
+                across["descent_m"].is_null());
+    EXPECT_GT(across["geodesic_m"].get<double>(), 9e6);
+}
+
+TEST_F(Measure, TextNamesTheDatumOfEveryHeight) {
+    const auto run = relevo("measure '" + scene().string() + "' point " + text(frame.lat_lon({7, 12})));
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_NE(run.out.find("m above EGM96 (assumed"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("m above the WGS 84 ellipsoid"), std::string::npos) << run.out;
+}
+
+TEST_F(Measure, ExitStatuses) {
+    const auto status = [&](const std::string& arguments) { return relevo("measure " + arguments).status; };
+    const std::string here = "'" + scene().string() + "' ";
+    EXPECT_EQ(status(here + "point 95,0"), 2);
+    EXPECT_EQ(status(here + "point nan,0"), 2);
+    EXPECT_EQ(status(here + "point 37,58,-105,49"), 2);
+    EXPECT_EQ(status(here + "point"), 2);
+    EXPECT_EQ(status(here + "point 1,2 3,4"), 2);
+    EXPECT_EQ(status(here + "line 1,2"), 2);
+    EXPECT_EQ(status(here + "walk 1,2"), 2);
+    EXPECT_EQ(status("'" + (folder / "nothing.relevo").string() + "' point 1,2"), 3);
+
+    // A flipped bit in the heights is damage, and never a height.
+    const auto opened = lod::Scene::open(scene());
+    ASSERT_TRUE(opened);
+    const auto file = scene() / opened->info().heights.front().file;
+    std::string bytes = contents(file);
+    bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+    std::filesystem::permissions(file, std::filesystem::perms::owner_write,
+                                 std::filesystem::perm_options::add);
+    replace(file, bytes);
+    const auto damaged = relevo("measure " + here + "point " + text(frame.lat_lon({7, 12})) + " --json");
+    EXPECT_EQ(damaged.status, 4);
+    EXPECT_TRUE(damaged.out.empty());
+    EXPECT_NE(damaged.err.find("a.relevo"), std::string::npos) << damaged.err;
+}
+
+// --- Real data
+
+class RealPosts : public testing::TestWithParam<const char*> {};
+
+TEST_P(RealPosts, AreGdallocationinfosExactly) {
+    RELEVO_NEEDS_DATA(GetParam());
+    const auto source = shared_data(GetParam());
+    const SceneFolder folder;
+    const auto path = folder / "a.relevo";
+    const auto run = relevo(fmt::format("ingest '{}' -o '{}' --quiet", source.string(), path.string()));
+    ASSERT_EQ(run.status, 0) << run.err;
+    const auto scene = lod::Scene::open(path);
+    ASSERT_TRUE(scene) << scene.error().message;
+    const geo::GridFrame& frame = scene->info().frame;
+
+    std::mt19937 random(1000);
+    std::vector<std::pair<int, int>> posts;
+    std::vector<std::string> input;
+    for (int i = 0; i < 3000; ++i) {
+        posts.emplace_back(static_cast<int>(random() % static_cast<unsigned>(frame.columns)),
+                           static_cast<int>(random() % static_cast<unsigned>(frame.rows)));
+        input.push_back(fmt::format("{} {}", posts.back().first, posts.back().second));
+    }
+    const auto answers = ask("gdallocationinfo -valonly '" + source.string() + "'", input);
+    if (answers.size() != posts.size())
+        GTEST_SKIP() << "gdallocationinfo is not installed (package gdal-bin)";
+
+    lod::HeightSampler sampler(*scene);
+    int valid = 0;
+    for (std::size_t i = 0; i < posts.size() && valid < 1000; ++i) {
+        const auto place =
+            frame.lat_lon({static_cast<double>(posts[i].first), static_cast<double>(posts[i].second)});
+        const auto point = lod::measure_point(sampler, nullptr, place);
+        ASSERT_TRUE(point) << point.error().message;
+        if (!point->H) continue;  // voids are another test's
+        EXPECT_EQ(point->H->m, numbers(answers[i])[0]) << input[i];
+        if (valid++ < 10) {  // the program is the same code: a few suffice
+            EXPECT_EQ(measure(path, "point " + text(place))["H_m"].get<double>(), numbers(answers[i])[0]);
+        }
+    }
+    EXPECT_EQ(valid, 1000);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sources, RealPosts,
+                         testing::Values("mountains/mt_rainier_90m.tif", "mountains/baltoro.tif",
+                                         "mosaic/gabon/N00E010.hgt", "coast/N43E007.hgt.zip"));
+
+}  // namespace
+}  // namespace relevo::test
