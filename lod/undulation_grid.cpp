@@ -26,6 +26,12 @@ double undulation(const geo::Geoid& geoid, const geo::GridFrame& frame, geo::Gri
     return geoid.undulation({geo::Degrees{lat}, place.lon}).m;
 }
 
+/// Nodes are multiples of 2^-15 m: the error, 0.015 mm, is a fraction of what is allowed, and the float's
+/// noise below it would be half of the file.
+float rounded(double undulation) {
+    return static_cast<float>(std::round(undulation * 32768) / 32768);
+}
+
 Raster<float> nodes_of(const geo::Geoid& geoid, const geo::GridFrame& frame, int shift) {
     const int side = (1 << (frame.levels() - shift)) + 1;
     Raster<float> nodes(side, side);
@@ -33,7 +39,7 @@ Raster<float> nodes_of(const geo::Geoid& geoid, const geo::GridFrame& frame, int
         for (int row = rows.begin(); row < rows.end(); ++row) {
             for (int column = 0; column < side; ++column) {
                 const geo::GridPosition place{std::ldexp(column, shift), std::ldexp(row, shift)};
-                nodes.at(column, row) = static_cast<float>(undulation(geoid, frame, place));
+                nodes.at(column, row) = rounded(undulation(geoid, frame, place));
             }
         }
     });
@@ -76,7 +82,7 @@ int coarsest_shift(const geo::GridFrame& frame) {
 }  // namespace
 
 UndulationGrid::UndulationGrid(const geo::Geoid& geoid, const geo::GridFrame& frame) {
-    // A tenth is kept for places that are not measured and for the rounding of nodes to float (4e-6 m).
+    // A tenth is kept for the places that are not measured.
     constexpr double kLimit = 0.9 * kMaxErrorM;
     for (shift_ = coarsest_shift(frame);; --shift_) {
         nodes_ = nodes_of(geoid, frame, shift_);

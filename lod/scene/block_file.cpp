@@ -88,6 +88,14 @@ Error not_read(const std::string& name, const std::string& why) {
     return {ErrorKind::damaged, fmt::format("{} is damaged: {}", name, why)};
 }
 
+/// Heights are near their neighbours; metrics are not (neighbours are of different levels), and are smaller
+/// by a sixth without a predictor.
+template <class T>
+constexpr const char* predictor() {
+    if constexpr (std::is_same_v<T, float>) return "3";
+    return std::is_same_v<T, std::int16_t> ? "2" : "1";
+}
+
 template <class T>
 CPLStringList creation_options(BlockShape shape) {
     CPLStringList options;
@@ -95,7 +103,7 @@ CPLStringList creation_options(BlockShape shape) {
     // write.
     options.SetNameValue("COMPRESS", "ZSTD");
     options.SetNameValue("ZSTD_LEVEL", "9");
-    options.SetNameValue("PREDICTOR", std::is_same_v<T, float> ? "3" : "2");
+    options.SetNameValue("PREDICTOR", predictor<T>());
     options.SetNameValue("INTERLEAVE", "BAND");
     options.SetNameValue("BLOCKYSIZE", fmt::format("{}", shape.rows).c_str());
     options.SetNameValue("ENDIANNESS", "LITTLE");

@@ -67,8 +67,8 @@ TEST(UndulationGrid, EveryPostIsANodeWherePostsAreFarApart) {
     EXPECT_EQ(grid.shift(), 0);
     for (int column = 0; column < 361; column += 7) {
         const geo::LatLon place = frame.lat_lon({static_cast<double>(column), 60});
-        // A node is stored as a float: half a step of it at 100 m.
-        EXPECT_NEAR(grid.at(column, 60), geoid->undulation(place).m, 4e-6);
+        // A node is a multiple of 2^-15 m.
+        EXPECT_NEAR(grid.at(column, 60), geoid->undulation(place).m, 1.6e-5);
     }
 }
 
