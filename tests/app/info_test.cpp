@@ -19,7 +19,7 @@ class Info : public testing::Test {
 };
 
 TEST_F(Info, JsonHasTheKeysOfTheContract) {
-    const Run run = relevo("info --json " + quoted());
+    const auto run = relevo("info --json " + quoted());
     ASSERT_EQ(run.status, 0) << run.err;
     EXPECT_EQ(run.err, "");
     const auto json = nlohmann::json::parse(run.out, nullptr, false);
@@ -71,7 +71,7 @@ TEST_F(Info, JsonHasTheKeysOfTheContract) {
 }
 
 TEST_F(Info, TextSaysWhatWasAssumed) {
-    const Run run = relevo("info " + quoted());
+    const auto run = relevo("info " + quoted());
     ASSERT_EQ(run.status, 0) << run.err;
     EXPECT_NE(run.out.find("EGM96 (assumed"), std::string::npos) << run.out;
     EXPECT_NE(run.out.find("made-up.tif"), std::string::npos) << run.out;
@@ -79,8 +79,8 @@ TEST_F(Info, TextSaysWhatWasAssumed) {
 }
 
 TEST_F(Info, IsTheSameInAnyLocale) {
-    const Run plain = relevo("info --json " + quoted());
-    const Run german = relevo("info --json " + quoted(), "LC_ALL=de_DE.UTF-8");
+    const auto plain = relevo("info --json " + quoted());
+    const auto german = relevo("info --json " + quoted(), "LC_ALL=de_DE.UTF-8");
     EXPECT_EQ(plain.out, german.out);
 }
 
@@ -88,13 +88,13 @@ TEST_F(Info, StatusSaysWhoseFaultItIs) {
     EXPECT_EQ(relevo("info").status, 2);
     EXPECT_EQ(relevo("info --nonsense " + quoted()).status, 2);
     EXPECT_EQ(relevo("info '/no/such.relevo'").status, 3);
-    const Run none = relevo("info '" + folder_.path().string() + "'");
+    const auto none = relevo("info '" + folder_.path().string() + "'");
     EXPECT_EQ(none.status, 3);
     EXPECT_NE(none.err.find("is not a scene"), std::string::npos) << none.err;
     EXPECT_EQ(none.out, "");
 
     replace(path_ / "scene.json", contents(path_ / "scene.json").substr(0, 200));
-    const Run cut = relevo("info --json " + quoted());
+    const auto cut = relevo("info --json " + quoted());
     EXPECT_EQ(cut.status, 4);
     EXPECT_NE(cut.err.find("scene.json"), std::string::npos) << cut.err;
     EXPECT_EQ(cut.out, "");
