@@ -1,5 +1,6 @@
 #include "viewer/layer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 
@@ -23,6 +24,10 @@ constexpr std::array<Stop, 7> kHypsometric{{{0.00, 72, 120, 84},
                                             {0.74, 219, 204, 176},
                                             {0.88, 233, 226, 216},
                                             {1.00, 250, 250, 252}}};
+
+// From the shore down. Its lightest is darker than the green of the shore's other side: the coast is a line.
+constexpr std::array<Stop, 4> kBelowZero{
+    {{0.00, 118, 170, 190}, {0.15, 90, 146, 178}, {0.50, 58, 108, 154}, {1.00, 30, 62, 112}}};
 
 // Flat is nearly white, steep is dark: yellow at 15 degrees, orange at 30, red at 40, purple beyond.
 constexpr std::array<Stop, 6> kSlope{{{0.00, 247, 247, 242},
@@ -75,12 +80,24 @@ Result<Layer> parse_layer(std::string_view text) {
                  fmt::format("no layer \"{}\": hypsometric, hillshade, slope or lod", text)};
 }
 
-std::vector<std::array<std::uint8_t, 4>> colour_ramp(Layer layer) {
+std::vector<std::array<std::uint8_t, 4>> colour_ramp(Layer layer, double low, double high) {
+    constexpr int kTexels = 4096;  // of 2 m on the whole earth: a coast is to be a line
+    // Both sides of 0 on one scale, so that the shallows of a scene that has nothing deeper look shallow.
+    const double reach = std::max(std::abs(low), std::abs(high));
+    const double bottom = std::max(low, 0.0);
+    const double step = (high - low) / (kTexels - 1);
     std::vector<std::array<std::uint8_t, 4>> colours;
-    colours.reserve(256);
-    for (int i = 0; i < 256; ++i) {
-        const double at = i / 255.0;
-        colours.push_back(layer == Layer::slope ? colour_at(kSlope, at) : colour_at(kHypsometric, at));
+    colours.reserve(kTexels);
+    for (int i = 0; i < kTexels; ++i) {
+        const double at = i / (kTexels - 1.0);
+        const double H = low + i * step;
+        if (layer == Layer::slope) {
+            colours.push_back(colour_at(kSlope, at));
+        } else if (low <= 0 && H < step) {  // 0 lies between two texels, and both have to be blue
+            colours.push_back(colour_at(kBelowZero, reach > 0 ? std::max(-H, 0.0) / reach : 0));
+        } else {
+            colours.push_back(colour_at(kHypsometric, high > bottom ? (H - bottom) / (high - bottom) : 0.5));
+        }
     }
     return colours;
 }

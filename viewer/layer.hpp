@@ -20,8 +20,10 @@ enum class Layer {
 std::string_view to_string(Layer layer);
 Result<Layer> parse_layer(std::string_view text);
 
-/// A layer's colours from its lowest value to its highest, 256 RGBA texels. Lightness changes steadily along
-/// each, so that equal steps of height or slope look equal and a grey copy still reads.
-std::vector<std::array<std::uint8_t, 4>> colour_ramp(Layer layer);
+/// A layer's colours from its lowest value to its highest, RGBA. Lightness changes steadily along each, so
+/// that equal steps of height or slope look equal and a grey copy still reads. Tints of heights up to 0,
+/// which is what most files say of the sea, are blue, deeper is darker; above they begin anew with green.
+/// \param low, high  the scene's heights, metres; only tints need them
+std::vector<std::array<std::uint8_t, 4>> colour_ramp(Layer layer, double low = 0, double high = 1);
 
 }  // namespace relevo::viewer

@@ -61,7 +61,7 @@ Result<Renderer> Renderer::create(const lod::Terrain& terrain) {
 Result<void> Renderer::make_ramps() {
     const std::array<Layer, 2> layers{Layer::hypsometric, Layer::slope};
     for (std::size_t i = 0; i < layers.size(); ++i) {
-        const auto colours = colour_ramp(layers[i]);
+        const auto colours = colour_ramp(layers[i], textures_.lowest_m, textures_.highest_m);
         ramps_[i] = GlTexture(create_gl_texture(GL_TEXTURE_2D));
         const GlName name = ramps_[i].name();
         const auto width = static_cast<GLsizei>(colours.size());

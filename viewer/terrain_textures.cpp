@@ -141,6 +141,10 @@ Result<TerrainTextures> build_terrain_textures(const lod::Terrain& terrain) {
     const auto larger = static_cast<unsigned>(std::max(columns, rows));
 
     TerrainTextures textures;
+    if (range.lowest <= range.highest) {
+        textures.lowest_m = range.lowest;
+        textures.highest_m = range.highest;
+    }
     textures.posts = GlTexture(create_gl_texture(GL_TEXTURE_2D));
     const GlName posts = textures.posts.name();
     glTextureStorage2D(posts, std::bit_width(larger), GL_RGBA16_SNORM, columns, rows);

@@ -14,8 +14,10 @@ namespace relevo::viewer {
 /// All four channels are 16-bit and multiplied by the validity (0 or 1), so that mip levels and filters
 /// average valid posts alone. Eleven bytes a post with mip levels.
 struct TerrainTextures {
-    GlTexture posts;  ///< east and north of the unit normal; H from -1 (lowest) to 1 (highest); validity
-    GlTexture cells;  ///< 8-bit: 0 where one of a cell's corners is void; absent where no post is
+    GlTexture posts;      ///< east and north of the unit normal; H from -1 (lowest) to 1 (highest); validity
+    GlTexture cells;      ///< 8-bit: 0 where one of a cell's corners is void; absent where no post is
+    double lowest_m = 0;  ///< H of the data; both 0 where all is void
+    double highest_m = 0;
     bool has_voids() const { return static_cast<bool>(cells); }
 };
 

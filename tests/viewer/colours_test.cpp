@@ -35,7 +35,8 @@ TEST(Colours, SlopeIsTheTrueSteepnessWhateverTheExaggeration) {
     for (const double rise : {0.0, 0.2, 0.5773502692, 1.0}) {
         Studio studio(plane(rise));
         const double degrees = std::atan(rise) * 180 / 3.14159265358979;
-        const auto expected = ramp[static_cast<std::size_t>(std::lround(degrees / 60 * 255))];
+        const auto expected =
+            ramp[static_cast<std::size_t>(std::lround(degrees / 60 * static_cast<double>(ramp.size() - 1)))];
         for (const double exaggeration : {1.0, 3.0}) {
             auto camera = above_looking_down(studio.terrain(), 64, 64, 3000);
             camera.eye.h.m *= exaggeration;
@@ -102,13 +103,32 @@ TEST(Colours, TintsRunOverTheScenesHeights) {
     // Two flats, with a step between them: tints are of heights, lit as flat ground is.
     Studio studio(make_terrain(
         frame, make_heights(frame, [](int column, int) { return column < 32 ? -50.0 : 3200.0; })));
-    const auto ramp = viewer::colour_ramp(Layer::hypsometric);
+    const auto ramp = viewer::colour_ramp(Layer::hypsometric, -50, 3200);
     const double flat = 0.32 + 0.12 + 0.75 * std::sqrt(0.5);
     for (const auto& [column, expected] : {std::pair(10, ramp.front()), std::pair(54, ramp.back())}) {
         const auto picture = studio.draw(above_looking_down(studio.terrain(), column, 32, 200, 20, 20),
                                          {.background = kMagenta});
         expect_near(centre(picture), expected, flat);
     }
+}
+
+TEST(Colours, TintsChangeAtZeroAndRiseInLightness) {
+    const auto lightness = [](const std::array<std::uint8_t, 4>& c) {
+        return 0.2126 * std::pow(c[0] / 255.0, 2.2) + 0.7152 * std::pow(c[1] / 255.0, 2.2) +
+               0.0722 * std::pow(c[2] / 255.0, 2.2);
+    };
+    const auto ramp = viewer::colour_ramp(Layer::hypsometric, -1000, 1000);
+    const std::size_t zero = ramp.size() / 2;
+    EXPECT_GT(ramp[zero - 1][2], ramp[zero - 1][1]);  // blue
+    EXPECT_GT(ramp[zero + 1][1], ramp[zero + 1][2]);  // green
+    for (std::size_t i = 1; i < ramp.size(); ++i) {
+        if (i < zero || i > zero + 1) {
+            EXPECT_GE(lightness(ramp[i]), lightness(ramp[i - 1]) - 0.004) << i;
+        }
+    }
+    const auto slope = viewer::colour_ramp(Layer::slope);
+    for (std::size_t i = 1; i < slope.size(); ++i)
+        EXPECT_LE(lightness(slope[i]), lightness(slope[i - 1]) + 0.004) << i;
 }
 
 TEST(Colours, LevelsDiffer) {

@@ -18,7 +18,7 @@ class RenderCommand : public testing::Test {
         write_mountains(scene_);
     }
 
-    test::Run render(const std::string& flags, const std::string& before = "") const {
+    ProgramRun render(const std::string& flags, const std::string& before = "") const {
         return relevo("render " + scene_ + " -o " + picture_ + " --size 160x90 " + flags, before);
     }
 

@@ -21,7 +21,11 @@ surface;
 
 out vec4 colour;
 
-vec3 ramp_colour(float at) { return texture(ramp, vec2(at, 0.5)).rgb; }
+// The ramp's first and last texels are its ends.
+vec3 ramp_colour(float at) {
+    float texels = float(textureSize(ramp, 0).x);
+    return texture(ramp, vec2((clamp(at, 0.0, 1.0) * (texels - 1.0) + 0.5) / texels, 0.5)).rgb;
+}
 
 // Coarse to fine: a polynomial fit of the Turbo colour map (A. Mikhailov, Google, 2019). Most of what is seen is fine:
 // the power gives its levels more of the colours.
