@@ -118,7 +118,8 @@ std::optional<Result<LatLon>> parse_utm(std::string_view text) {
     }
 }
 
-/// The zone's number (none for UPS), three letters (the band and two of the square), and the digits within it.
+/// The zone's number (none for UPS), three letters (the band and two of the square), and the digits within
+/// it.
 bool looks_like_mgrs(std::string_view compact) {
     const auto first_letter = std::find_if_not(compact.begin(), compact.end(), is_digit);
     const auto after_letters = std::find_if_not(first_letter, compact.end(), is_letter);

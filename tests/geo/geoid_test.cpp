@@ -172,7 +172,8 @@ TEST_F(Egm96, IsWithin3CentimetresOfTheModelBetweenNodes) {
 }
 
 TEST_F(Egm96, OracleFindsThePublishedErrorOfLinearInterpolation) {
-    // GeographicLib's documentation: at most 1.152 m for EGM96 15'. Found at Hawaii, so the oracle is the model.
+    // GeographicLib's documentation: at most 1.152 m for EGM96 15'. Found at Hawaii, so the oracle is the
+    // model.
     EXPECT_NEAR(std::abs(nodes->linear(817.5, 438.5) - nodes->trigonometric(817.5, 438.5)), 1.152, 0.001);
 }
 
