@@ -1,4 +1,5 @@
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -101,7 +102,7 @@ nlohmann::json plan_json(const ingest::ImportPlan& plan) {
     json["dry_run"] = true;
     json["posts"] = plan.posts;
     json["padded_posts"] = plan.padded_posts;
-    json["bytes_at_most"] = plan.bytes_at_most;
+    json["bytes_estimate"] = plan.bytes_estimate;
     json["memory_bytes"] = plan.memory_bytes;
     json["resampling_method"] = plan.resampling;
     json["vertical_datum"] = plan.vertical.name;
@@ -125,8 +126,8 @@ Result<void> show_plan(const Settings& s) {
     fmt::print("{} x {} posts, step {:.10g} x {:.10g} degrees ({})\n", plan->frame.columns, plan->frame.rows,
                plan->frame.step_x, plan->frame.step_y,
                plan->keeps_own_posts ? "the source's own" : "resampled: " + plan->resampling);
-    fmt::print("{} posts, {} with padding; at most {:.1f} MiB on disk, about {:.1f} MiB of memory\n",
-               plan->posts, plan->padded_posts, static_cast<double>(plan->bytes_at_most) / 1048576,
+    fmt::print("{} posts, {} with padding; about {:.1f} MiB on disk and {:.1f} MiB of memory\n", plan->posts,
+               plan->padded_posts, static_cast<double>(plan->bytes_estimate) / 1048576,
                static_cast<double>(plan->memory_bytes) / 1048576);
     if (plan->padded_posts > s.max_posts)
         fmt::print("more than --max-posts {}: it would be refused\n", s.max_posts);
@@ -161,7 +162,8 @@ Result<void> run_import(const Settings& s) {
     const StopOnSignal signals;
     const auto bar = progress_bar(s.common, "importing");
     const auto start = std::chrono::steady_clock::now();
-    const auto imported = ingest::import_scene(options_of(s), s.scene, s.overwrite, [&](double done) {
+    const auto place = std::filesystem::absolute(s.scene);
+    const auto imported = ingest::import_scene(options_of(s), place, s.overwrite, [&](double done) {
         bar(done);
         return stop_asked == 0;
     });

@@ -26,10 +26,12 @@ constexpr double kHeightsDone = 0.35;
 constexpr double kErrorDone = 0.5;
 constexpr double kMetricsDone = 0.9;
 
-// Bytes a post that an import holds: its height, and of the padded grid three codes and what building them
-// takes.
-constexpr std::uint64_t kBytesOfHeight = 4;
-constexpr std::uint64_t kBytesOfMetrics = 6;
+// Measured on real ground (docs/ingest.md). Memory: a post's height; a padded post's three codes and what
+// building them takes; the program with its libraries and the geoid. Disk: compressed codes.
+constexpr std::uint64_t kMemoryOfHeight = 4;
+constexpr std::uint64_t kMemoryOfMetrics = 16;
+constexpr std::uint64_t kMemoryOfProgram = std::uint64_t{64} << 20;
+constexpr std::uint64_t kDiskOfMetrics = 4;
 
 /// An opened source and all that is decided before its heights are read.
 struct Prepared {
@@ -93,10 +95,9 @@ lod::SourceInfo describe(const Prepared& prepared) {
 std::vector<std::string> notes_of(const Prepared& prepared, const ImportOptions& options) {
     std::vector<std::string> notes = prepared.source.notes();
     notes.insert(notes.end(), prepared.target.notes.begin(), prepared.target.notes.end());
-    if (!prepared.operation.note().empty()) notes.push_back(prepared.operation.note());
     if (prepared.target.own && options.resampling)
         notes.emplace_back("its own posts are kept: --resampling has nothing to do");
-    if (prepared.source.value_type() == "Float64" && prepared.target.own)
+    if (prepared.source.value_type() == "Float64")
         notes.emplace_back("float64 heights are rounded to float32");
     return notes;
 }
@@ -109,8 +110,9 @@ ImportPlan plan_of(const Prepared& prepared, const ImportOptions& options) {
     plan.padded_posts = side * side;
     plan.keeps_own_posts = prepared.target.own.has_value();
     const std::uint64_t height_bytes = plan.keeps_own_posts && prepared.source.whole_metres() ? 2 : 4;
-    plan.bytes_at_most = plan.posts * (height_bytes + kBytesOfMetrics);
-    plan.memory_bytes = plan.posts * kBytesOfHeight + plan.padded_posts * kBytesOfMetrics;
+    plan.bytes_estimate = plan.posts * (height_bytes + kDiskOfMetrics);
+    plan.memory_bytes =
+        kMemoryOfProgram + plan.posts * kMemoryOfHeight + plan.padded_posts * kMemoryOfMetrics;
     plan.resampling = plan.keeps_own_posts ? "none" : to_string(prepared.method);
     plan.vertical = prepared.source.heights().reference;
     plan.source = describe(prepared);
@@ -188,7 +190,9 @@ Result<void> write(lod::SceneWriter& writer, lod::SceneInfo info, const lod::Ras
 Result<ImportPlan> plan_import(const ImportOptions& options) {
     const auto prepared = prepare(options);
     if (!prepared) return prepared.error();
-    return plan_of(*prepared, options);
+    ImportPlan plan = plan_of(*prepared, options);
+    if (!plan.source.operation_note.empty()) plan.notes.push_back(plan.source.operation_note);
+    return plan;
 }
 
 Result<Imported> import_scene(const ImportOptions& options, const std::filesystem::path& scene,
@@ -219,6 +223,9 @@ Result<Imported> import_scene(const ImportOptions& options, const std::filesyste
         return refusal(name, "all of it is void",
                        "Check --nodata and --crop, or whether it holds heights at all");
     note_strange_heights(info, plan.notes);
+    if (plan.keeps_own_posts && info.resampling.max_m > 0)
+        plan.notes.push_back(
+            fmt::format("float32 rounds its heights by up to {:.2g} m", info.resampling.max_m));
 
     lod::UndulationGrid undulations;
     if (info.vertical.datum != lod::VerticalDatum::ellipsoid) {
@@ -231,6 +238,7 @@ Result<Imported> import_scene(const ImportOptions& options, const std::filesyste
     if (!metrics) return metrics.error();
 
     plan.source.notes = joined(plan.notes);
+    if (!plan.source.operation_note.empty()) plan.notes.push_back(plan.source.operation_note);
     if (!prepared->source.file().empty()) {
         auto checksum = lod::sha256_of_file(prepared->source.file());
         if (!checksum) return checksum.error();

@@ -30,10 +30,11 @@ struct ImportOptions {
 /// What an import would make.
 struct ImportPlan {
     geo::GridFrame frame;
-    std::uint64_t posts = 0;          ///< of the data
-    std::uint64_t padded_posts = 0;   ///< of the 2^n + 1 grid around it
-    std::uint64_t bytes_at_most = 0;  ///< on disk, before compression
-    std::uint64_t memory_bytes = 0;   ///< while importing, roughly
+    std::uint64_t posts = 0;         ///< of the data
+    std::uint64_t padded_posts = 0;  ///< of the 2^n + 1 grid around it
+    std::uint64_t bytes_estimate =
+        0;  ///< on disk: within a factor of 3 for real ground, less where most is void
+    std::uint64_t memory_bytes = 0;  ///< while importing, roughly
     bool keeps_own_posts = false;
     std::string resampling;  ///< as SceneInfo::resampling_method
     lod::VerticalReference vertical;

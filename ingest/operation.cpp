@@ -73,6 +73,7 @@ std::string name_of(const PJ* operation) {
 }
 
 std::optional<double> accuracy_of(PJ_CONTEXT* context, const PJ* operation) {
+    if (proj_get_type(operation) == PJ_TYPE_CONVERSION) return 0.0;  // of WGS 84 itself: nothing is measured
     const double accuracy = proj_coordoperation_get_accuracy(context, operation);
     if (accuracy < 0) return {};
     return accuracy;

@@ -32,6 +32,7 @@ TEST(Operation, UtmAgreesWithGeographicLib) {
         EXPECT_NEAR(there.y, p.y, 1e-6);
     }
     EXPECT_EQ(utm->note(), "");
+    EXPECT_EQ(utm->accuracy_m(), 0);
 }
 
 // Debian has none of the grids from NAD27: PROJ's own choice for a transformation falls back to ballpark
