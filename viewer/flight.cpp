@@ -130,7 +130,9 @@ class Flight {
         const auto measure = [&](const glm::dvec2& pixel) -> Result<std::optional<lod::PointMeasurement>> {
             const auto hit = hit_at(pixel);
             if (!hit) return std::optional<lod::PointMeasurement>{};
-            auto point = lod::measure_point(sampler_, heights_.geoid(), terrain_.frame().lat_lon(hit->place));
+            geo::LatLon place = terrain_.frame().lat_lon(hit->place);
+            place.lon = geo::wrapped_180(place.lon);  // a grid runs on across the antimeridian
+            auto point = lod::measure_point(sampler_, heights_.geoid(), place);
             if (!point) return point.error();
             return std::optional(*point);
         };
