@@ -159,20 +159,6 @@ Result<lod::Raster<float>> heights_of(const Prepared& prepared, const ImportOpti
     return heights;
 }
 
-/// Carries a stop out of build_metrics, whose progress cannot say it.
-struct Stopped {};
-
-Result<lod::MetricRasters> metrics_of(const geo::GridFrame& frame, const lod::UndulationGrid& undulations,
-                                      const lod::Raster<float>& heights, const Stage& stage) {
-    try {
-        return lod::build_metrics(frame, undulations, heights, [&](double done) {
-            if (!stage(done)) throw Stopped{};
-        });
-    } catch (const Stopped&) {
-        return interrupted();
-    }
-}
-
 Result<void> write(lod::SceneWriter& writer, lod::SceneInfo info, const lod::Raster<float>& heights,
                    const lod::MetricRasters& metrics, const lod::UndulationGrid& undulations,
                    const Stage& stage) {
@@ -234,8 +220,8 @@ Result<Imported> import_scene(const ImportOptions& options, const std::filesyste
         undulations = lod::UndulationGrid{*geoid, info.frame};
     }
     const auto metrics =
-        metrics_of(info.frame, undulations, *heights, Stage{progress, kErrorDone, kMetricsDone});
-    if (!metrics) return metrics.error();
+        lod::build_metrics(info.frame, undulations, *heights, Stage{progress, kErrorDone, kMetricsDone});
+    if (!metrics) return interrupted();
 
     plan.source.notes = joined(plan.notes);
     if (!plan.source.operation_note.empty()) plan.notes.push_back(plan.source.operation_note);

@@ -72,14 +72,14 @@ class MetricBuilder {
                     Raster<std::uint16_t>(side, side)};
     }
 
-    MetricRasters build(const std::function<void(double)>& progress) {
+    std::optional<MetricRasters> build(const std::function<bool(double)>& go_on) {
         const int side = frame_.padded_side();
         for (int level = 2 * levels_ - 1; level >= 0; --level) {
             tbb::parallel_for(0, side, [&](int row) {
                 for_each_vertex_in_row(levels_, level, row,
                                        [&](const GridPoint& v) { build_vertex(v, level); });
             });
-            if (progress) progress(1 - level / (2.0 * levels_));
+            if (!go_on(1 - level / (2.0 * levels_))) return std::nullopt;
         }
         return std::move(metrics_);
     }
@@ -203,8 +203,14 @@ class MetricBuilder {
 }  // namespace
 
 MetricRasters build_metrics(const geo::GridFrame& frame, const UndulationGrid& undulations,
-                            const Raster<float>& heights, const std::function<void(double)>& progress) {
-    return MetricBuilder(frame, undulations, heights).build(progress);
+                            const Raster<float>& heights) {
+    return *build_metrics(frame, undulations, heights, [](double) { return true; });
+}
+
+std::optional<MetricRasters> build_metrics(const geo::GridFrame& frame, const UndulationGrid& undulations,
+                                           const Raster<float>& heights,
+                                           const std::function<bool(double)>& go_on) {
+    return MetricBuilder(frame, undulations, heights).build(go_on);
 }
 
 }  // namespace relevo::lod

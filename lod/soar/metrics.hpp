@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "geo/frame.hpp"
 #include "lod/scene/raster.hpp"
@@ -16,9 +17,14 @@ namespace relevo::lod {
 ///   without the vertex, compared at the same grid coordinates;
 /// - incremental: distance of the vertex from the middle of the edge that it splits (Lindstrom & Pascucci).
 ///
-/// \param heights   H of the data, void = NaN
-/// \param progress  called with the part done, 0 to 1; may be empty
+/// \param heights  H of the data, metres, void = NaN
 MetricRasters build_metrics(const geo::GridFrame& frame, const UndulationGrid& undulations,
-                            const Raster<float>& heights, const std::function<void(double)>& progress = {});
+                            const Raster<float>& heights);
+
+/// The same; nothing where it was stopped on the way.
+/// \param go_on  called after each level with the part done, 0 to 1; says whether to go on
+std::optional<MetricRasters> build_metrics(const geo::GridFrame& frame, const UndulationGrid& undulations,
+                                           const Raster<float>& heights,
+                                           const std::function<bool(double)>& go_on);
 
 }  // namespace relevo::lod
