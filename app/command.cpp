@@ -1,12 +1,11 @@
 #include "app/command.hpp"
 
-#include <unistd.h>
-
 #include <cmath>
 #include <cstdio>
 #include <memory>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 namespace relevo::app {
 

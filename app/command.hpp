@@ -10,7 +10,8 @@
 
 namespace relevo::app {
 
-/// What the chosen subcommand does once the command line is read. An error ends the program with its kind's status.
+/// What the chosen subcommand does once the command line is read. An error ends the program with its kind's
+/// status.
 using Action = std::function<Result<void>()>;
 
 /// Options that every subcommand has.

@@ -11,10 +11,14 @@ namespace {
 
 int exit_status(relevo::ErrorKind kind) {
     switch (kind) {
-        case relevo::ErrorKind::usage: return 2;
-        case relevo::ErrorKind::input: return 3;
-        case relevo::ErrorKind::damaged: return 4;
-        case relevo::ErrorKind::internal: break;
+        case relevo::ErrorKind::usage:
+            return 2;
+        case relevo::ErrorKind::input:
+            return 3;
+        case relevo::ErrorKind::damaged:
+            return 4;
+        case relevo::ErrorKind::internal:
+            break;
     }
     return 1;
 }

@@ -15,6 +15,6 @@ inline std::filesystem::path shared_data(const std::string& name) {
 }  // namespace relevo::test
 
 /// Skips the test where the developers' data folder is absent.
-#define RELEVO_NEEDS_DATA(name)                                \
+#define RELEVO_NEEDS_DATA(name)                                    \
     if (!std::filesystem::exists(relevo::test::shared_data(name))) \
     GTEST_SKIP() << "no " << name << " in the developers' data folder"

@@ -45,8 +45,8 @@ class Folder {
 
     Result<void> make_folder(const std::string& name) const;
 
-    /// Brings everything written so far on this file system to the disk, files and names. One call for hundreds of
-    /// files: an fsync of each took 25 ms.
+    /// Brings everything written so far on this file system to the disk, files and names. One call for
+    /// hundreds of files: an fsync of each took 25 ms.
     Result<void> sync_all() const;
 
     /// Brings the names in this folder to the disk.

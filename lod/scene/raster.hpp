@@ -32,7 +32,8 @@ class Raster {
   private:
     std::size_t index(int column, int row) const {
         assert(column >= 0 && column < columns_ && row >= 0 && row < rows_);
-        return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+               static_cast<std::size_t>(column);
     }
 
     int columns_ = 0;
