@@ -3,7 +3,6 @@
 //
 //   refine_bench SCENE [--benchmark_... options]
 
-#include <cmath>
 #include <cstdio>
 #include <vector>
 
@@ -12,30 +11,15 @@
 
 #include "lod/mesh_heights.hpp"
 #include "lod/soar/refiner.hpp"
+#include "tests/bench/flight.hpp"
 #include "tests/bench/textbook.hpp"
 
 namespace {
 
 using namespace relevo;
 
-/// A straight flight from the middle of the south side to the north at twice the relief above the highest
-/// ground.
-std::vector<lod::Camera> flight(const lod::Scene& scene, int frames) {
-    const geo::GridFrame& frame = scene.info().frame;
-    std::vector<lod::Camera> cameras;
-    for (int k = 0; k < frames; ++k) {
-        const double along = static_cast<double>(k) / frames;
-        const geo::LatLon place = frame.lat_lon({0.5 * frame.columns, (1.1 - 0.7 * along) * frame.rows});
-        lod::Camera camera;
-        const double relief = scene.info().height_max_m - scene.info().height_min_m;
-        camera.eye = {place.lat, place.lon, {scene.info().height_max_m + 0.3 * relief}};
-        camera.pitch = geo::Degrees{-20};
-        cameras.push_back(camera);
-    }
-    return cameras;
-}
-
-void set_counters(benchmark::State& state, std::size_t triangles) {
+void set_counters(benchmark::State& state, std::size_t triangles, std::size_t vertices) {
+    state.counters["vertices/tri"] = static_cast<double>(vertices) / static_cast<double>(triangles);
     state.counters["triangles"] =
         benchmark::Counter(static_cast<double>(triangles), benchmark::Counter::kAvgIterations);
     state.counters["Mtri/s"] =
@@ -46,12 +30,15 @@ void shipped(benchmark::State& state, const lod::Terrain& terrain, const std::ve
              double tau, bool morph) {
     lod::Refiner refiner(terrain);
     std::size_t triangles = 0;
+    std::size_t vertices = 0;
     std::size_t k = 0;
     for (auto _ : state) {
-        triangles += refiner.refine(lod::View(cameras[k++ % cameras.size()]), {.tau_px = tau, .morph = morph})
-                         .triangles();
+        const lod::View view(cameras[k++ % cameras.size()]);
+        const lod::Mesh& mesh = refiner.refine(view, {.tau_px = tau, .morph = morph});
+        triangles += mesh.triangles();
+        vertices += mesh.vertices.size();
     }
-    set_counters(state, triangles);
+    set_counters(state, triangles, vertices);
 }
 
 /// The same cameras in the textbook's flat world: x east, y south, z up.
@@ -60,6 +47,7 @@ void textbook(benchmark::State& state, bench::Textbook& mesh, const lod::Scene& 
     const geo::GridFrame& frame = scene.info().frame;
     const auto spacing = frame.spacing(0.5 * frame.rows);
     std::size_t triangles = 0;
+    std::size_t vertices = 0;
     std::size_t k = 0;
     for (auto _ : state) {
         const lod::Camera& camera = cameras[k++ % cameras.size()];
@@ -73,12 +61,12 @@ void textbook(benchmark::State& state, bench::Textbook& mesh, const lod::Scene& 
             planes[i] = {glm::dot(plane, local.east()), -glm::dot(plane, local.north()),
                          glm::dot(plane, local.up())};
         }
-        mesh.refine(eye, planes, view.focal_px(), tau);
+        vertices += mesh.refine(eye, planes, view.focal_px(), tau).size();
         state.PauseTiming();
         triangles += mesh.triangles();
         state.ResumeTiming();
     }
-    set_counters(state, triangles);
+    set_counters(state, triangles, vertices);
 }
 
 }  // namespace
@@ -104,7 +92,7 @@ int main(int argc, char** argv) {
     const geo::GridFrame& frame = scene->info().frame;
     const auto spacing = frame.spacing(0.5 * frame.rows);
     bench::Textbook yardstick(lod::mesh_heights(frame, *heights), spacing.east_m, spacing.north_m);
-    const std::vector<lod::Camera> cameras = flight(*scene, 100);
+    const std::vector<lod::Camera> cameras = bench::flight(*scene, 100);
 
     for (const double tau : {0.25, 1.0}) {
         const auto name = [tau](const char* what) { return fmt::format("{}/tau:{}", what, tau); };

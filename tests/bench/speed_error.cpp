@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-#include "lod/sample_views.hpp"
+#include "tests/bench/flight.hpp"
 #include "viewer/camera.hpp"
 #include "viewer/offscreen.hpp"
 
@@ -74,7 +74,7 @@ Result<void> run(const char* path, int views) {
     for (const auto metric : {lod::ErrorMetric::bounded, lod::ErrorMetric::incremental}) {
         const auto terrain = lod::Terrain::load(*scene, metric);
         if (!terrain) return terrain.error();
-        const auto cameras = lod::sample_views(*terrain, views, 1, 1280, 720);
+        const auto cameras = bench::flight(*scene, views);
         for (const bool morph : {false, true}) {
             for (double tau = 0.25; tau <= 16; tau *= 2) {
                 viewer::ViewState state;
