@@ -102,7 +102,8 @@ void print_source(const lod::SourceInfo& source) {
 
 void print_resampling(const lod::SceneInfo& info) {
     if (info.resampling_method == "none") {
-        fmt::print("resampling   none: the source's own posts, bit for bit\n");
+        fmt::print("resampling   none: the source's own posts, {}\n",
+                   info.resampling.max_m == 0 ? "bit for bit" : "rounded to float32");
         return;
     }
     const lod::ResamplingError& error = info.resampling;
