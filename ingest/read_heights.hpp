@@ -24,4 +24,8 @@ Result<OwnHeights> read_own_heights(const Source& source, const OwnPosts& own, c
 Result<lod::Raster<float>> warp_heights(const Source& source, const GridMap& map, const geo::GridFrame& frame,
                                         Resampling method, const Stage& stage);
 
+/// The same for a window of the frame, which may start anywhere.
+Result<lod::Raster<float>> warp_block(const Source& source, const GridMap& map, const geo::GridFrame& frame,
+                                      Resampling method, Window window);
+
 }  // namespace relevo::ingest

@@ -12,7 +12,15 @@
 
 namespace relevo::ingest {
 
+/// What a scene's grid runs along.
+enum class FrameChoice {
+    automatic,   ///< UPS where the middle of the data is beyond 75 degrees, else geographic
+    geographic,  ///< equal steps of longitude and latitude
+    ups,         ///< equal steps of easting and northing around the nearer pole
+};
+
 struct TargetRequest {
+    FrameChoice frame = FrameChoice::automatic;
     std::optional<Bounds> crop;                           ///< degrees
     std::optional<std::pair<double, double>> resolution;  ///< steps of longitude and latitude, degrees
 };

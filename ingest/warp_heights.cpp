@@ -86,8 +86,14 @@ std::optional<Window> source_window(const Source& source, const BlockPlaces& blo
 
 class Warp {
   public:
-    Warp(const Source& source, const GridMap& map, Resampling method, lod::Raster<float>& heights)
-        : source_(source), map_(map), method_(method), heights_(heights) {}
+    Warp(const Source& source, const GridMap& map, Resampling method, lod::Raster<float>& heights,
+         Place origin = {})
+        : source_(source),
+          map_(map),
+          method_(method),
+          heights_(heights),
+          left_(static_cast<int>(origin.x)),
+          top_(static_cast<int>(origin.y)) {}
 
     Result<void> block(Window block) {
         BlockPlaces places{
@@ -121,7 +127,7 @@ class Warp {
         if (!read) return read.error();
         const SourcePart of_source{*window, std::move(*read)};
         tbb::parallel_for(w.row, w.row + w.rows, [&](int r) {
-            float* out = heights_.row(block.block.row + r) + block.block.column;
+            float* out = heights_.row(block.block.row - top_ + r) + (block.block.column - left_);
             for (int c = w.column; c < w.column + w.columns; ++c) {
                 const Place p = block.places.at(c, r);
                 if (in_source(p, source_))
@@ -135,6 +141,8 @@ class Warp {
     const GridMap& map_;
     Resampling method_;
     lod::Raster<float>& heights_;
+    int left_;
+    int top_;
 };
 
 }  // namespace
@@ -153,6 +161,25 @@ Result<lod::Raster<float>> warp_heights(const Source& source, const GridMap& map
                 return interrupted();
         }
     return heights;
+}
+
+Result<lod::Raster<float>> warp_block(const Source& source, const GridMap& map, const geo::GridFrame& frame,
+                                      Resampling method, Window window) {
+    const auto down = [](int at) { return at / kTransformTile * kTransformTile; };
+    const auto up = [](int at, int most) {
+        return std::min((at + kTransformTile - 1) / kTransformTile * kTransformTile, most);
+    };
+    const int left = down(window.column);
+    const int top = down(window.row);
+    const Window tiles{left, top, up(window.column + window.columns, frame.columns) - left,
+                       up(window.row + window.rows, frame.rows) - top};
+    lod::Raster<float> heights{tiles.columns, tiles.rows, std::numeric_limits<float>::quiet_NaN()};
+    Warp warp{source, map, method, heights, {static_cast<double>(left), static_cast<double>(top)}};
+    if (auto done = warp.block(tiles); !done) return done.error();
+    lod::Raster<float> part{window.columns, window.rows};
+    for (int r = 0; r < window.rows; ++r)
+        std::copy_n(heights.row(window.row - top + r) + (window.column - left), window.columns, part.row(r));
+    return part;
 }
 
 }  // namespace relevo::ingest
