@@ -1,95 +1,127 @@
 #include "geo/geoid.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cassert>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
-#include <fstream>
+#include <limits>
 #include <span>
-#include <system_error>
 
 #include <fmt/format.h>
 #include <proj.h>
 
+#include "geo/cubic_spline.hpp"
+#include "geo/gtx_file.hpp"
+
 namespace relevo::geo {
 namespace {
 
-constexpr std::size_t kHeaderBytes = 40;
+constexpr double kSlack = 1e-6;  // degrees; steps such as 1/12 are rounded
 
-/// A number at a place of a .gtx file: big-endian, whatever this machine is.
-template <class T, class Bits>
-T big_endian(const char* bytes) {
-    Bits bits = 0;
-    for (std::size_t i = 0; i < sizeof(Bits); ++i)
-        bits = static_cast<Bits>(bits << 8) | static_cast<unsigned char>(bytes[i]);
-    return std::bit_cast<T>(bits);
+bool from_pole_to_pole(const GeoidNodes& g) {
+    const double north = g.south + (g.rows - 1) * g.step_lat;
+    return std::abs(g.south + 90) < kSlack && std::abs(north - 90) < kSlack;
 }
 
-/// Turns samples of a periodic function into the coefficients of its interpolating cubic B-spline (Unser
-/// 1999): one recursive filter forward, one back, both begun with the sum over the whole period.
-void to_spline_coefficients(std::span<double> samples) {
-    const double pole = std::sqrt(3.0) - 2;
-    const std::size_t n = samples.size();
-    // |pole|^40 < 1e-22: more terms add nothing.
-    const std::size_t terms = std::min<std::size_t>(n, 40);
-    const double period = 1 / (1 - std::pow(pole, static_cast<double>(n)));
-
-    double sum = 0;
-    double power = 1;
-    for (std::size_t k = 0; k < terms; ++k, power *= pole) sum += power * samples[(n - k) % n];
-    samples[0] = sum * period;
-    for (std::size_t k = 1; k < n; ++k) samples[k] += pole * samples[k - 1];
-
-    sum = 0;
-    power = 1;
-    for (std::size_t k = 0; k < terms; ++k, power *= pole) sum += power * samples[(n - 1 + k) % n];
-    samples[n - 1] = -pole * sum * period;
-    for (std::size_t k = n - 1; k-- > 0;) samples[k] = pole * (samples[k + 1] - samples[k]);
-
-    for (double& c : samples) c *= 6;
+bool all_round(const GeoidNodes& g) {
+    return g.columns * g.step_lon > 360 - kSlack;
 }
 
-/// Weights of the four coefficients around a place, t in [0, 1) past the second of them.
-std::array<double, 4> spline_weights(double t) {
-    const double s = 1 - t;
-    return {s * s * s / 6, 2.0 / 3 - 0.5 * t * t * (2 - t), 2.0 / 3 - 0.5 * s * s * (2 - s), t * t * t / 6};
+/// A grid of the whole earth needs an even number of columns, and its closing column may be there or not: a
+/// meridian goes on beyond the pole as the opposite one, which must have nodes too.
+bool has_opposite_meridians(const GeoidNodes& g) {
+    const double turn = g.columns * g.step_lon;
+    if (std::abs(turn - 360) < kSlack) return g.columns % 2 == 0;
+    return std::abs(turn - g.step_lon - 360) < kSlack && g.columns % 2 == 1;
 }
 
-Error bad_grid(const std::filesystem::path& file, std::string_view what) {
-    return {ErrorKind::input, fmt::format("{}: {}. It must be a .gtx geoid grid of the whole earth, such as "
-                                          "egm96_15.gtx of the Debian package proj-data.",
-                                          file.string(), what)};
+Error bad_nodes(const std::string& name, std::string_view what) {
+    return {ErrorKind::input, fmt::format("{}: {}. Give a geoid grid of latitude and longitude, of a region "
+                                          "or of the whole earth",
+                                          name, what)};
 }
 
-/// What a .gtx file begins with.
-struct Header {
-    double south, west, step_lat, step_lon;
-    std::int32_t rows, columns;
-};
+Result<void> check(const GeoidNodes& g, const std::string& name) {
+    assert(g.undulations.size() == static_cast<std::size_t>(g.rows) * static_cast<std::size_t>(g.columns));
+    const double north = g.south + (g.rows - 1) * g.step_lat;
+    if (!(g.step_lat > 0 && g.step_lon > 0 && std::isfinite(g.west)) || g.rows < 3 || g.columns < 4 ||
+        !(g.south >= -90 - kSlack && north <= 90 + kSlack) || !(g.columns * g.step_lon < 720))
+        return bad_nodes(name, "its header is not that of a geoid grid");
+    if (all_round(g) && std::abs(std::round(360 / g.step_lon) * g.step_lon - 360) > kSlack)
+        return bad_nodes(name, "its columns do not meet again round the earth");
+    const bool earth = from_pole_to_pole(g) && all_round(g);
+    if (earth && !has_opposite_meridians(g))
+        return bad_nodes(name, "its meridians have no opposite ones, as beyond the poles they need");
+    if (!earth && (g.rows < 4 || g.columns < 4))
+        return bad_nodes(name, fmt::format("{} x {} nodes are too few", g.columns, g.rows));
 
-Header read_header(const char* bytes) {
-    return {big_endian<double, std::uint64_t>(bytes),
-            big_endian<double, std::uint64_t>(bytes + 8),
-            big_endian<double, std::uint64_t>(bytes + 16),
-            big_endian<double, std::uint64_t>(bytes + 24),
-            big_endian<std::int32_t, std::uint32_t>(bytes + 32),
-            big_endian<std::int32_t, std::uint32_t>(bytes + 36)};
+    bool any = false;
+    for (int row = 0; row < g.rows; ++row) {
+        const double* line = g.undulations.data() + static_cast<std::ptrdiff_t>(row) * g.columns;
+        for (int column = 0; column < g.columns; ++column) {
+            // The geoid stays within 107 m of the ellipsoid; datums of depths may lie a little lower.
+            const bool hole = std::isnan(line[column]) && !earth;
+            if (!hole && !(std::abs(line[column]) < 200))
+                return bad_nodes(name, fmt::format("no undulation at row {}, column {}", row, column));
+            any = any || !hole;
+            // The pole is one point. Storing it is rounded the same way in all columns.
+            if (earth && (row == 0 || row == g.rows - 1) && line[column] != line[0])
+                return bad_nodes(name, "more than one value at a pole");
+        }
+    }
+    if (!any) return bad_nodes(name, "it holds no undulations");
+    return {};
 }
 
-/// Does the grid cover the whole earth, from pole to pole, in an even number of columns? (A meridian goes on
-/// beyond the pole as the opposite one, which must have nodes too.) The closing column may be there or not.
-bool covers_the_earth(const Header& h) {
-    constexpr double kSlack = 1e-6;  // degrees; steps such as 1/12 are rounded
-    if (!(h.step_lat > 0 && h.step_lon > 0 && std::isfinite(h.west))) return false;
-    if (h.rows < 3 || h.columns < 4) return false;
-    const double north = h.south + (h.rows - 1) * h.step_lat;
-    if (!(std::abs(h.south + 90) < kSlack && std::abs(north - 90) < kSlack)) return false;
-    const double turn = h.columns * h.step_lon;
-    if (std::abs(turn - 360) < kSlack) return h.columns % 2 == 0;
-    return std::abs(turn - h.step_lon - 360) < kSlack && h.columns % 2 == 1;
+/// Gives holes the mean of their neighbours, from their rims inwards, so that a spline through them stays
+/// calm. Afterwards no node is NaN: deep inside they are 0.
+void fill_holes(std::vector<double>& nodes, int columns, int rows) {
+    const auto at = [&](int column, int row) -> double& {
+        return nodes[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                     static_cast<std::size_t>(column)];
+    };
+    struct Filled {
+        int column, row;
+        double value;
+    };
+    constexpr int kDeep = 30;  // what is farther in has no influence on nodes with a value
+    std::vector<Filled> rim;
+    for (int pass = 0; pass < kDeep; ++pass) {
+        rim.clear();
+        for (int row = 0; row < rows; ++row)
+            for (int column = 0; column < columns; ++column) {
+                if (!std::isnan(at(column, row))) continue;
+                double sum = 0;
+                int count = 0;
+                for (int r = std::max(row - 1, 0); r <= std::min(row + 1, rows - 1); ++r)
+                    for (int c = std::max(column - 1, 0); c <= std::min(column + 1, columns - 1); ++c)
+                        if (!std::isnan(at(c, r))) {
+                            sum += at(c, r);
+                            ++count;
+                        }
+                if (count > 0) rim.push_back({column, row, sum / count});
+            }
+        for (const Filled& f : rim) at(f.column, f.row) = f.value;
+        if (rim.empty()) return;
+    }
+    for (double& value : nodes)
+        if (std::isnan(value)) value = 0;
+}
+
+/// A band round the earth, as a region that overlaps itself: its own border is then far from any place asked
+/// for.
+GeoidNodes overlapping(const GeoidNodes& g) {
+    constexpr int kOverlap = 20;  // the border's influence falls by 0.27 a node
+    const int turn = static_cast<int>(std::lround(360 / g.step_lon));
+    GeoidNodes wide = g;
+    wide.columns = turn + 1 + 2 * kOverlap;
+    wide.west = g.west - kOverlap * g.step_lon;
+    wide.undulations.clear();
+    for (int row = 0; row < g.rows; ++row)
+        for (int column = 0; column < wide.columns; ++column)
+            wide.undulations.push_back(
+                g.undulations[static_cast<std::size_t>(row) * static_cast<std::size_t>(g.columns) +
+                              static_cast<std::size_t>(((column - kOverlap) % turn + turn) % turn)]);
+    return wide;
 }
 
 }  // namespace
@@ -107,54 +139,33 @@ Result<Geoid> Geoid::egm96() {
 }
 
 Result<Geoid> Geoid::from_gtx(const std::filesystem::path& file) {
-    std::error_code failure;
-    const std::uintmax_t size = std::filesystem::file_size(file, failure);
-    if (failure) return bad_grid(file, fmt::format("cannot be read ({})", failure.message()));
-    if (size < kHeaderBytes) return bad_grid(file, "too short for a header");
+    const auto nodes = read_gtx(file);
+    if (!nodes) return nodes.error();
+    return from_nodes(*nodes, file.string());
+}
 
-    std::ifstream in(file, std::ios::binary);
-    std::array<char, kHeaderBytes> header_bytes{};
-    if (!in.read(header_bytes.data(), kHeaderBytes)) return bad_grid(file, "cannot be read");
-    const Header header = read_header(header_bytes.data());
-    if (!covers_the_earth(header))
-        return bad_grid(file, "its header is not that of a grid of the whole earth");
+Result<Geoid> Geoid::from_nodes(const GeoidNodes& nodes, const std::string& name) {
+    if (auto sound = check(nodes, name); !sound) return sound.error();
+    if (!all_round(nodes)) return region(nodes);
+    return from_pole_to_pole(nodes) ? whole_earth(nodes) : region(overlapping(nodes));
+}
 
-    const auto file_columns = static_cast<std::size_t>(header.columns);
-    const auto rows = static_cast<std::size_t>(header.rows);
-    // Before anything is allocated: a damaged header may ask for any amount.
-    const std::uintmax_t expected = kHeaderBytes + std::uintmax_t{4} * rows * file_columns;
-    if (size != expected) return bad_grid(file, fmt::format("{} bytes instead of {}", size, expected));
-
+Geoid Geoid::whole_earth(const GeoidNodes& nodes) {
     Geoid geoid;
-    geoid.columns_ = header.columns - header.columns % 2;  // without the closing column
-    geoid.rows_ = header.rows;
-    geoid.west_ = header.west;
+    geoid.whole_earth_ = true;
+    geoid.columns_ = nodes.columns - nodes.columns % 2;  // without the closing column
+    geoid.rows_ = nodes.rows;
+    geoid.west_ = nodes.west;
     const auto columns = static_cast<std::size_t>(geoid.columns_);
+    const auto rows = static_cast<std::size_t>(geoid.rows_);
     std::vector<double>& c = geoid.coefficients_;
     c.resize(columns * rows);
-    std::vector<char> line(4 * file_columns);
     for (std::size_t row = 0; row < rows; ++row) {
-        if (!in.read(line.data(), static_cast<std::streamsize>(line.size())))
-            return bad_grid(file, "cannot be read");
-        for (std::size_t column = 0; column < columns; ++column) {
-            const auto N = static_cast<double>(big_endian<float, std::uint32_t>(&line[4 * column]));
-            // The geoid stays within 107 m of the ellipsoid; -88.8888 marks a hole by the format's
-            // convention.
-            if (!(std::abs(N) < 200) || N == static_cast<double>(-88.8888F))
-                return bad_grid(file, fmt::format("no undulation at row {}, column {}", row, column));
-            c[row * columns + column] = N;
-        }
+        const auto* line = nodes.undulations.data() + row * static_cast<std::size_t>(nodes.columns);
+        std::copy(line, line + columns, c.data() + row * columns);
     }
-    for (const std::size_t pole : {std::size_t{0}, rows - 1}) {
-        for (std::size_t column = 1; column < columns; ++column) {
-            // The pole is one point. Storing it is rounded the same way in all columns.
-            if (c[pole * columns + column] != c[pole * columns])
-                return bad_grid(file, "more than one value at a pole");
-        }
-    }
-
     for (std::size_t row = 0; row < rows; ++row)
-        to_spline_coefficients(std::span(c).subspan(row * columns, columns));
+        to_periodic_spline_coefficients(std::span(c).subspan(row * columns, columns));
     // A meridian and its opposite make one periodic line over both poles.
     std::vector<double> circle(2 * (rows - 1));
     for (std::size_t column = 0; column < columns / 2; ++column) {
@@ -162,7 +173,7 @@ Result<Geoid> Geoid::from_gtx(const std::filesystem::path& file) {
         for (std::size_t row = 0; row < rows; ++row) circle[row] = c[row * columns + column];
         for (std::size_t row = rows - 2; row > 0; --row)
             circle[2 * (rows - 1) - row] = c[row * columns + opposite];
-        to_spline_coefficients(circle);
+        to_periodic_spline_coefficients(circle);
         for (std::size_t row = 0; row < rows; ++row) c[row * columns + column] = circle[row];
         for (std::size_t row = 0; row < rows; ++row)
             c[row * columns + opposite] = circle[(2 * (rows - 1) - row) % circle.size()];
@@ -170,8 +181,89 @@ Result<Geoid> Geoid::from_gtx(const std::filesystem::path& file) {
     return geoid;
 }
 
+Geoid Geoid::region(const GeoidNodes& nodes) {
+    Geoid geoid;
+    geoid.south_ = nodes.south;
+    geoid.west_ = nodes.west;
+    geoid.step_lat_ = nodes.step_lat;
+    geoid.step_lon_ = nodes.step_lon;
+    geoid.columns_ = nodes.columns;
+    geoid.rows_ = nodes.rows;
+    std::vector<double> N = nodes.undulations;
+    if (std::any_of(N.begin(), N.end(), [](double value) { return std::isnan(value); })) {
+        for (const double value : N) geoid.has_value_.push_back(std::isnan(value) ? 0 : 1);
+        fill_holes(N, nodes.columns, nodes.rows);
+    }
+    const auto columns = static_cast<std::size_t>(nodes.columns);
+    const auto rows = static_cast<std::size_t>(nodes.rows);
+    const std::size_t stride = columns + 2;
+    std::vector<double>& c = geoid.coefficients_;
+    c.resize(stride * (rows + 2));
+    for (std::size_t row = 0; row < rows; ++row) {
+        const auto line = line_spline_coefficients(std::span(N).subspan(row * columns, columns));
+        std::copy(line.begin(), line.end(), c.data() + (row + 1) * stride);
+    }
+    std::vector<double> meridian(rows);
+    for (std::size_t column = 0; column < stride; ++column) {
+        for (std::size_t row = 0; row < rows; ++row) meridian[row] = c[(row + 1) * stride + column];
+        const auto line = line_spline_coefficients(meridian);
+        for (std::size_t row = 0; row < rows + 2; ++row) c[row * stride + column] = line[row];
+    }
+    return geoid;
+}
+
+/// Column of a longitude in a region's grid: between 0 and columns - 1 where it is inside, else nearer to one
+/// side or the other, as the place is.
+double Geoid::column_of(Degrees lon) const {
+    const double width = (columns_ - 1) * step_lon_;
+    const double from_middle = (wrapped_360(lon - Degrees{west_ + width / 2 - 180}) - Degrees{180}).value;
+    const double column = (from_middle + width / 2) / step_lon_;
+    // What rounding has put a hair outside.
+    constexpr double kHair = 1e-9;
+    if (column < 0 && column > -kHair) return 0;
+    if (column > columns_ - 1 && column < columns_ - 1 + kHair) return columns_ - 1;
+    return column;
+}
+
+bool Geoid::covers(LatLon place) const {
+    if (whole_earth_) return true;
+    const double x = column_of(place.lon);
+    const double y = (place.lat.value - south_) / step_lat_;
+    constexpr double kHair = 1e-9;
+    if (!(x >= 0 && x <= columns_ - 1 && y >= -kHair && y <= rows_ - 1 + kHair)) return false;
+    if (has_value_.empty()) return true;
+    // All nodes of its piece of the spline and of the pieces around.
+    const int column = static_cast<int>(x);
+    const int row = static_cast<int>(std::max(y, 0.0));
+    for (int r = std::max(row - 1, 0); r <= std::min(row + 2, rows_ - 1); ++r)
+        for (int c = std::max(column - 1, 0); c <= std::min(column + 2, columns_ - 1); ++c)
+            if (has_value_[static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) +
+                           static_cast<std::size_t>(c)] == 0)
+                return false;
+    return true;
+}
+
 Undulation Geoid::undulation(LatLon place) const {
     assert(std::abs(place.lat.value) <= 90 && std::isfinite(place.lon.value));
+    if (whole_earth_) return undulation_on_earth(place);
+    const double x = std::clamp(column_of(place.lon), 0.0, columns_ - 1.0);
+    const double y = std::clamp((place.lat.value - south_) / step_lat_, 0.0, rows_ - 1.0);
+    const int column = std::min(static_cast<int>(x), columns_ - 2);
+    const int row = std::min(static_cast<int>(y), rows_ - 2);
+    const auto along = spline_weights(x - column);
+    const auto up = spline_weights(y - row);
+    double sum = 0;
+    for (int j = 0; j < 4; ++j) {
+        const double* line =
+            coefficients_.data() + static_cast<std::ptrdiff_t>(row + j) * (columns_ + 2) + column;
+        double line_sum = 0;
+        for (int i = 0; i < 4; ++i) line_sum += along[static_cast<std::size_t>(i)] * line[i];
+        sum += up[static_cast<std::size_t>(j)] * line_sum;
+    }
+    return {sum};
+}
+
+Undulation Geoid::undulation_on_earth(LatLon place) const {
     const double x = wrapped_360(place.lon - Degrees{west_}).value / 360 * columns_;
     const double y = (place.lat.value + 90) / 180 * (rows_ - 1);
     const int column = static_cast<int>(x);  // x may round up to columns_: the sum below wraps round

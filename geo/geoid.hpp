@@ -1,41 +1,65 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
+#include "geo/geoid_nodes.hpp"
 #include "geo/height.hpp"
 #include "geo/position.hpp"
 #include "geo/result.hpp"
 
 namespace relevo::geo {
 
-/// A geoid model: the height N of mean sea level above the ellipsoid, everywhere on earth.
+/// A geoid model: the height N of a vertical datum's zero above the ellipsoid, everywhere on earth or in a
+/// region.
 ///
-/// The model's nodes are joined by an interpolating bicubic spline (C2; Unser 1999, "Splines: a perfect fit
-/// for signal and image processing"): periodic in longitude, and continued across a pole along the opposite
-/// meridian, so that no place on earth is special. At a node it is the node to 1e-12 m. Between the nodes of
-/// EGM96 15' it is within 0.03 m of the model (measured against the trigonometric polynomial through the
-/// nodes, which the model is: 0.0265 m at most and 1.6 mm RMS in the middle of all cells, where linear
-/// interpolation is wrong by up to 1.152 m, 56 mm RMS).
+/// The model's nodes are joined by an interpolating bicubic spline (cubic_spline.hpp): periodic in longitude,
+/// and continued across a pole along the opposite meridian where the grid covers the earth, so that no place
+/// on earth is special; in a region's grid "not a knot" at its border. At a node it is the node to 1e-12 m.
+/// Between the nodes of EGM96 15' it is within 0.03 m of the model (measured against the trigonometric
+/// polynomial through the nodes, which the model is: 0.0265 m at most and 1.6 mm RMS in the middle of all
+/// cells, where linear interpolation is wrong by up to 1.152 m, 56 mm RMS).
 class Geoid {
   public:
     /// EGM96 on its 15' grid, from PROJ's data (egm96_15.gtx, Debian package proj-data).
     /// Fails with a message that names the file where PROJ does not find it.
     static Result<Geoid> egm96();
 
-    /// A grid in the .gtx format (big-endian; whole earth, with or without the closing column).
+    /// A grid in the .gtx format (big-endian; of a region, or of the whole earth with or without the closing
+    /// column).
     static Result<Geoid> from_gtx(const std::filesystem::path& file);
 
-    /// \pre lat in [-90, 90], lon finite
+    /// From nodes of a region (at least 4 x 4) or of the whole earth. Nodes without a value make the places
+    /// around them uncovered; a grid of the whole earth must have none.
+    /// \param name  of the model, for the error's message
+    static Result<Geoid> from_nodes(const GeoidNodes& nodes, const std::string& name);
+
+    /// N; where the model has none, a smooth continuation of it. \pre lat in [-90, 90], lon finite
     Undulation undulation(LatLon place) const;
+
+    /// Does the model say what N is there? \pre lat in [-90, 90], lon finite
+    bool covers(LatLon place) const;
 
   private:
     Geoid() = default;
 
-    int columns_ = 0;                   // of the periodic grid: 360 / step
-    int rows_ = 0;                      // 180 / step + 1, south to north
-    double west_ = 0;                   // longitude of column 0, degrees
-    std::vector<double> coefficients_;  // of the spline, row by row from the south pole
+    static Geoid whole_earth(const GeoidNodes& nodes);
+    static Geoid region(const GeoidNodes& nodes);
+    Undulation undulation_on_earth(LatLon place) const;
+    double column_of(Degrees lon) const;
+
+    bool whole_earth_ = false;
+    double south_ = 0;  // of node (0, 0), degrees
+    double west_ = 0;
+    double step_lat_ = 0;
+    double step_lon_ = 0;
+    int columns_ = 0;  // whole earth: 360 / step, without a closing column
+    int rows_ = 0;
+    /// Of the spline, row by row from the south. A region has one more on each side.
+    std::vector<double> coefficients_;
+    std::vector<std::uint8_t> has_value_;  // by node; empty: all have
 };
 
 }  // namespace relevo::geo

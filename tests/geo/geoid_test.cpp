@@ -287,7 +287,7 @@ TEST_F(GtxFile, OddHeadersAreRefused) {
         g.columns = 0x7ffffffe;
         g.rows = 0x7ffffffe;
     }));
-    EXPECT_TRUE(refused([](Gtx& g) { g.south = -60; }));  // a region
+    EXPECT_TRUE(refused([](Gtx& g) { g.south = -60; }));  // up to 120 degrees north
     EXPECT_TRUE(refused([](Gtx& g) { g.step_lon = -30; }));
     EXPECT_TRUE(refused([](Gtx& g) { g.step_lat = std::nan(""); }));
     EXPECT_TRUE(refused([](Gtx& g) { g.west = std::numeric_limits<double>::infinity(); }));
@@ -316,6 +316,117 @@ TEST_F(GtxFile, MissingFileIsAnError) {
     ASSERT_FALSE(geoid);
     EXPECT_NE(geoid.error().message.find("nothing.gtx"), std::string::npos);
     EXPECT_FALSE(Geoid::from_gtx(scratch / ""));  // a folder
+}
+
+TEST_F(GtxFile, ARegionIsRead) {
+    Gtx region;
+    region.south = 40;
+    region.west = 350;
+    region.step_lat = region.step_lon = 0.5;
+    region.rows = 9;
+    region.columns = 41;
+    const auto geoid = read(region.bytes());
+    ASSERT_TRUE(geoid) << geoid.error().message;
+    EXPECT_NEAR(geoid->undulation(at(41.5, -7)).m, region.value(3, 6), 1e-12);
+    EXPECT_NEAR(geoid->undulation(at(41.5, 353)).m, region.value(3, 6), 1e-12);
+    EXPECT_NEAR(geoid->undulation(at(44, 10)).m, region.value(8, 40), 1e-12);
+    EXPECT_TRUE(geoid->covers(at(40, -10)));
+    EXPECT_TRUE(geoid->covers(at(44, 10)));
+    EXPECT_TRUE(geoid->covers(at(42, 0)));
+    EXPECT_FALSE(geoid->covers(at(39.99, 0)));
+    EXPECT_FALSE(geoid->covers(at(44.01, 0)));
+    EXPECT_FALSE(geoid->covers(at(42, 10.01)));
+    EXPECT_FALSE(geoid->covers(at(42, -10.01)));
+    EXPECT_FALSE(geoid->covers(at(42, 180)));
+    // Beyond its border it goes on without a step.
+    EXPECT_EQ(geoid->undulation(at(42, 10.3)), geoid->undulation(at(42, 10)));
+    EXPECT_EQ(geoid->undulation(at(60, -12)), geoid->undulation(at(44, -10)));
+}
+
+// --- Regions
+
+GeoidNodes region(double south, double west, double step, int rows, int columns, auto value) {
+    GeoidNodes nodes{south, west, step, step, rows, columns, {}};
+    for (int row = 0; row < rows; ++row)
+        for (int column = 0; column < columns; ++column)
+            nodes.undulations.push_back(value(south + row * step, west + column * step));
+    return nodes;
+}
+
+TEST(RegionalGeoid, GivesACubicPolynomialBackUpToItsBorder) {
+    const auto f = [](double lat, double lon) {
+        const double u = lat - 47;
+        const double v = lon - 11;
+        return 40 + u - 2 * v + u * v - 0.3 * u * u * v + 0.2 * v * v * v - 0.1 * u * u * u * v * v;
+    };
+    for (const int count : {4, 5, 6, 7, 20}) {
+        const double step = 2.0 / (count - 1);
+        const auto geoid = Geoid::from_nodes(region(46, 10, step, count, count, f), "polynomial");
+        ASSERT_TRUE(geoid) << geoid.error().message;
+        for (double lat = 46; lat <= 48; lat += 0.0625)
+            for (double lon = 10; lon <= 12; lon += 0.0625)
+                ASSERT_NEAR(geoid->undulation(at(lat, lon)).m, f(lat, lon), 1e-12) << count;
+    }
+}
+
+TEST_F(Egm96, ACutOfItIsTheSame) {
+    // Far from the border the spline of a cut is the whole earth's; one cell from it the border is felt.
+    const auto node = [&](double lat, double lon) {
+        return (*nodes)(static_cast<int>(std::lround((lat + 90) * 4)),
+                        static_cast<int>(std::lround(lon * 4)));
+    };
+    const auto cut = Geoid::from_nodes(region(20, 80, 0.25, 81, 121, node), "cut");
+    ASSERT_TRUE(cut);
+    double inside = 0;
+    double near = 0;
+    for (double lat = 20; lat <= 40; lat += 0.0625)
+        for (double lon = 80; lon <= 110; lon += 0.0625) {
+            const double off = std::abs(cut->undulation(at(lat, lon)).m - N(lat, lon));
+            near = std::max(near, off);
+            if (std::min({lat - 20, 40 - lat, lon - 80, 110 - lon}) >= 3) inside = std::max(inside, off);
+        }
+    EXPECT_LT(inside, 1e-6);
+    EXPECT_LT(near, 0.1);  // in the outermost cells
+}
+
+TEST_F(Egm96, ABandRoundTheEarthHasNoSeam) {
+    const auto node = [&](double lat, double lon) {
+        return (*nodes)(static_cast<int>(std::lround((lat + 90) * 4)),
+                        static_cast<int>(std::lround(lon * 4)));
+    };
+    for (const int columns : {1440, 1441}) {
+        const auto band = Geoid::from_nodes(region(-20, -180, 0.25, 161, columns, node), "band");
+        ASSERT_TRUE(band);
+        for (const double lon : {-180.0, 180.0, 179.9, -179.9, 0.1, 359.99, -33.3}) {
+            EXPECT_NEAR(band->undulation(at(3.3, lon)).m, N(3.3, lon), 1e-6) << lon;
+            EXPECT_TRUE(band->covers(at(3.3, lon)));
+        }
+        EXPECT_FALSE(band->covers(at(20.1, 0)));
+    }
+}
+
+TEST(RegionalGeoid, HolesAreNotCovered) {
+    const auto smooth = [](double lat, double lon) { return 40 + std::sin(lat) + std::cos(lon); };
+    auto nodes = region(46, 10, 0.1, 41, 41, smooth);
+    const auto whole = Geoid::from_nodes(nodes, "whole");
+    for (int row = 18; row < 24; ++row)
+        for (int column = 18; column < 41; ++column)
+            nodes.undulations[static_cast<std::size_t>(row * 41 + column)] = std::nan("");
+    const auto holed = Geoid::from_nodes(nodes, "holed");
+    ASSERT_TRUE(whole && holed);
+    EXPECT_FALSE(holed->covers(at(48, 13)));
+    EXPECT_FALSE(holed->covers(at(47.75, 12.55)));
+    EXPECT_TRUE(std::isfinite(holed->undulation(at(48, 13)).m));
+    int covered = 0;
+    for (double lat = 46; lat <= 50; lat += 0.025)
+        for (double lon = 10; lon <= 14; lon += 0.025) {
+            if (!holed->covers(at(lat, lon))) continue;
+            ++covered;
+            ASSERT_NEAR(holed->undulation(at(lat, lon)).m, whole->undulation(at(lat, lon)).m, 0.02);
+        }
+    EXPECT_GT(covered, 20000);
+    std::fill(nodes.undulations.begin(), nodes.undulations.end(), std::nan(""));
+    EXPECT_FALSE(Geoid::from_nodes(nodes, "empty"));
 }
 
 TEST(MissingGeoid, NamesTheFileAndThePackage) {
