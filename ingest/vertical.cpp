@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "ingest/vertical_datum.hpp"
+
 namespace relevo::ingest {
 namespace {
 
@@ -72,14 +74,11 @@ lod::VerticalReference reference(const VerticalClues& clues, std::vector<std::st
             "--vertical tells otherwise");
         return {VerticalDatum::egm96, "EGM96", true};
     }
-    if (clues.crs->ellipsoidal) return {VerticalDatum::ellipsoid, clues.crs->name, false};
-    if (clues.crs->code == "EPSG:5773" || clues.crs->name.rfind("EGM96", 0) == 0)
-        return {VerticalDatum::egm96, "EGM96", false};
-    notes.push_back(
-        fmt::format("heights are kept above {}, whose geoid is not here: h and N are unknown, pictures use "
-                    "EGM96",
-                    clues.crs->name));
-    return {VerticalDatum::other, clues.crs->name, false};
+    auto reference = vertical_reference_of(*clues.crs);
+    if (reference.datum == VerticalDatum::other)
+        notes.push_back(fmt::format(
+            "heights are kept above {}: h and N are known where its geoid is (--geoid)", reference.name));
+    return reference;
 }
 
 Result<double> unit_in_metres(const VerticalClues& clues, std::vector<std::string>& notes) {
