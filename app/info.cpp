@@ -30,7 +30,7 @@ struct Derived {
         : north_west(info.frame.lat_lon({0, 0})),
           south_east(info.frame.lat_lon(
               {static_cast<double>(info.frame.columns - 1), static_cast<double>(info.frame.rows - 1)})),
-          spacing(info.frame.spacing((info.frame.rows - 1) / 2.0)),
+          spacing(info.frame.spacing({(info.frame.columns - 1) / 2.0, (info.frame.rows - 1) / 2.0})),
           posts(info.valid_posts + info.void_posts),
           height_bytes(sum(info.heights)),
           metric_bytes(sum(info.metrics)) {}
@@ -62,8 +62,8 @@ void print_json(const lod::SceneInfo& info, const Derived& derived) {
     json["step_x"] = frame.step_x;
     json["step_y"] = frame.step_y;
     json["step_unit"] = lod::step_unit(frame.kind);
-    json["step_x_m"] = derived.spacing.east_m;
-    json["step_y_m"] = derived.spacing.north_m;
+    json["step_x_m"] = derived.spacing.column_m;
+    json["step_y_m"] = derived.spacing.row_m;
     json["vertical_datum"] = info.vertical.name;
     json["filled_posts"] = nullptr;  // holes are not filled, and the sea is not told from the land: unknown
     json["sea_posts"] = nullptr;
@@ -122,7 +122,7 @@ void print_text(const std::string& name, const lod::SceneInfo& info, const Deriv
     fmt::print("grid         {} x {} posts, {} (WGS 84), n = {}\n", frame.columns, frame.rows,
                lod::to_string(frame.kind), frame.levels());
     fmt::print("resolution   {:.10g} x {:.10g} {}, {:.2f} x {:.2f} m in the middle\n", frame.step_x,
-               frame.step_y, lod::step_unit(frame.kind), derived.spacing.east_m, derived.spacing.north_m);
+               frame.step_y, lod::step_unit(frame.kind), derived.spacing.column_m, derived.spacing.row_m);
     fmt::print("heights      above {}{}, {}\n", info.vertical.name,
                info.vertical.assumed ? " (assumed: the source does not say)" : "",
                info.height_type == lod::HeightType::int16 ? "whole metres" : "32-bit floats");

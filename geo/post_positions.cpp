@@ -9,6 +9,10 @@
 namespace relevo::geo {
 
 PostPositions::PostPositions(const GridFrame& frame) {
+    if (frame.is_polar()) {
+        polar_.emplace(frame);
+        return;
+    }
     const int side = frame.padded_side();
     rows_.reserve(static_cast<std::size_t>(side));
     columns_.reserve(static_cast<std::size_t>(side));

@@ -26,8 +26,8 @@ GridPoint random_valid_post(const Terrain& terrain, std::mt19937_64& random) {
 
 /// Longer side of the data, metres.
 double terrain_size(const geo::GridFrame& frame) {
-    const auto spacing = frame.spacing(0.5 * frame.rows);
-    return std::max(spacing.east_m * frame.columns, spacing.north_m * frame.rows);
+    const auto spacing = frame.spacing({0.5 * frame.columns, 0.5 * frame.rows});
+    return std::max(spacing.column_m * frame.columns, spacing.row_m * frame.rows);
 }
 
 }  // namespace

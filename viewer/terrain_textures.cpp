@@ -56,7 +56,7 @@ HeightRange height_range(const Heights& heights) {
 
 void fill_row(const lod::Terrain& terrain, const HeightRange& range, int row, Texel* out) {
     const Heights& heights = terrain.heights();
-    const auto spacing = terrain.frame().spacing(row);
+    const auto spacing = terrain.frame().spacing({0, static_cast<double>(row)});
     const float none = std::numeric_limits<float>::quiet_NaN();
     const float* here = heights.row(row);
     const float* north = row > 0 ? heights.row(row - 1) : nullptr;
@@ -70,9 +70,9 @@ void fill_row(const lod::Terrain& terrain, const HeightRange& range, int row, Te
             continue;
         }
         const double east = slope(column > 0 ? here[column - 1] : none, H,
-                                  column + 1 < heights.columns() ? here[column + 1] : none, spacing.east_m);
+                                  column + 1 < heights.columns() ? here[column + 1] : none, spacing.column_m);
         const double up_north = slope(south != nullptr ? south[column] : none, H,
-                                      north != nullptr ? north[column] : none, spacing.north_m);
+                                      north != nullptr ? north[column] : none, spacing.row_m);
         const double length = std::sqrt(1 + east * east + up_north * up_north);
         out[column] = {snorm(-east / length), snorm(-up_north / length), snorm((H - middle) / half_range),
                        32767};

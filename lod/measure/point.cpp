@@ -27,8 +27,9 @@ Result<PointMeasurement> measure_point(HeightSampler& sampler, const geo::Geoid*
     point.place = place;
     point.N = undulation(info.vertical.datum, geoid, place);
     const auto spacing =
-        info.frame.spacing(std::clamp(position.row, 0.0, static_cast<double>(info.frame.rows - 1)));
-    point.resolution_m = std::max(spacing.east_m, spacing.north_m);
+        info.frame.spacing({std::clamp(position.column, 0.0, static_cast<double>(info.frame.columns - 1)),
+                            std::clamp(position.row, 0.0, static_cast<double>(info.frame.rows - 1))});
+    point.resolution_m = std::max(spacing.column_m, spacing.row_m);
     if (!sampler.inside(position)) return point;
 
     const auto H = sampler.height(position);

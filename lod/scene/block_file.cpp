@@ -114,16 +114,16 @@ template <class T>
 bool write_meaning(GDALDataset& file, const std::optional<GeoReference>& where) {
     bool written = true;
     if (where) {
-        OGRSpatialReference wgs84;
-        wgs84.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-        written = wgs84.importFromEPSG(4326) == OGRERR_NONE;
+        OGRSpatialReference crs;
+        crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+        written = crs.importFromEPSG(where->epsg) == OGRERR_NONE;
         double transform[6] = {where->west - where->step_x / 2,
                                where->step_x,
                                0,
                                where->north + where->step_y / 2,
                                0,
                                -where->step_y};
-        written = written && file.SetSpatialRef(&wgs84) == CE_None &&
+        written = written && file.SetSpatialRef(&crs) == CE_None &&
                   file.SetGeoTransform(transform) == CE_None &&
                   file.SetMetadataItem("AREA_OR_POINT", "Point") == CE_None;
     }

@@ -10,9 +10,10 @@
 
 namespace relevo::lod {
 
-/// Where the samples of a block lie on the earth (EPSG:4326): the centre of the first one, and the steps in
-/// degrees.
+/// Where the samples of a block lie on the earth: the centre of the first one and the steps, in degrees
+/// (EPSG:4326) or metres (EPSG:5041 and EPSG:5042, UPS).
 struct GeoReference {
+    int epsg = 4326;
     double west = 0;
     double north = 0;
     double step_x = 0;

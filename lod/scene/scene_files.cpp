@@ -18,6 +18,19 @@ std::string dump(const nlohmann::json& json, int indent) {
     return json.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
+/// Longitude and latitude of WGS 84, or UPS with easting before northing.
+int epsg_code(geo::FrameKind kind) {
+    switch (kind) {
+        case geo::FrameKind::ups_north:
+            return 5041;
+        case geo::FrameKind::ups_south:
+            return 5042;
+        case geo::FrameKind::geographic:
+            break;
+    }
+    return 4326;
+}
+
 /// Of everything but itself, in one form whatever the spaces and the order of keys in the file.
 std::string checksum(nlohmann::json json) {
     json.erase(kChecksum);
@@ -32,7 +45,8 @@ std::string block_file_name(const char* folder, int block_column, int block_row)
 }
 
 GeoReference geo_reference(const geo::GridFrame& frame, int column, int row) {
-    return {frame.west + column * frame.step_x, frame.north - row * frame.step_y, frame.step_x, frame.step_y};
+    return {epsg_code(frame.kind), frame.west + column * frame.step_x, frame.north - row * frame.step_y,
+            frame.step_x, frame.step_y};
 }
 
 std::string scene_text(const SceneInfo& info) {
@@ -60,15 +74,15 @@ std::string mosaic_text(const SceneInfo& info) {
     const geo::GridFrame& frame = info.frame;
     std::string text = fmt::format(
         "<VRTDataset rasterXSize=\"{}\" rasterYSize=\"{}\">\n"
-        "  <SRS dataAxisToSRSAxisMapping=\"2,1\">EPSG:4326</SRS>\n"
+        "  <SRS dataAxisToSRSAxisMapping=\"{}\">EPSG:{}</SRS>\n"
         "  <GeoTransform>{}, {}, 0, {}, 0, {}</GeoTransform>\n"
         "  <Metadata>\n    <MDI key=\"AREA_OR_POINT\">Point</MDI>\n  </Metadata>\n"
         "  <VRTRasterBand dataType=\"{}\" band=\"1\" blockXSize=\"{}\" blockYSize=\"{}\">\n"
         "    <NoDataValue>{}</NoDataValue>\n    <UnitType>m</UnitType>\n    "
         "<ColorInterp>Gray</ColorInterp>\n",
-        frame.columns, frame.rows, frame.west - frame.step_x / 2, frame.step_x,
-        frame.north + frame.step_y / 2, -frame.step_y, type, SceneInfo::kBlockSide, SceneInfo::kBlockSide,
-        whole ? "-32768" : "nan");
+        frame.columns, frame.rows, frame.is_polar() ? "1,2" : "2,1", epsg_code(frame.kind),
+        frame.west - frame.step_x / 2, frame.step_x, frame.north + frame.step_y / 2, -frame.step_y, type,
+        SceneInfo::kBlockSide, SceneInfo::kBlockSide, whole ? "-32768" : "nan");
     const BlockGrid grid = BlockGrid::of_heights(frame.columns, frame.rows);
     for (const BlockInfo& block : info.heights) {
         const BlockGrid::Box box = grid.box(block.column, block.row);

@@ -99,10 +99,41 @@ nlohmann::json to_json(const geo::GridFrame& frame) {
             {"columns", frame.columns},      {"rows", frame.rows}};
 }
 
+template <class Enum>
+Enum named(JsonFields& fields, const char* key, std::initializer_list<Enum> values) {
+    const std::string name = fields.text(key);
+    for (const Enum value : values) {
+        if (name == to_string(value)) return value;
+    }
+    fields.wrong(key, "is unknown");
+    return *values.begin();
+}
+
+/// A polar grid, which may reach beyond the equator (12 713 km from the pole in UPS) but not without end.
+void read_polar_frame(JsonFields& fields, geo::GridFrame& frame) {
+    constexpr double kFarthestM = 30e6;
+    constexpr double kPole = geo::kUpsFalseOrigin;
+    frame.west = fields.number("west", kPole - kFarthestM, kPole + kFarthestM);
+    frame.north = fields.number("north", kPole - kFarthestM, kPole + kFarthestM);
+    frame.step_x = fields.number("step_x", 1e-6, kFarthestM);
+    frame.step_y = fields.number("step_y", 1e-6, kFarthestM);
+    frame.columns = fields.integer("columns", 1, kMaxSide);
+    frame.rows = fields.integer("rows", 1, kMaxSide);
+    if (frame.west + (frame.columns - 1) * frame.step_x > kPole + kFarthestM)
+        fields.wrong("step_x", "goes beyond what a polar grid can hold");
+    if (frame.north - (frame.rows - 1) * frame.step_y < kPole - kFarthestM)
+        fields.wrong("step_y", "goes beyond what a polar grid can hold");
+}
+
 geo::GridFrame frame_from(JsonFields fields) {
     geo::GridFrame frame;
-    if (fields.text("kind") != to_string(geo::FrameKind::geographic)) fields.wrong("kind", "is unknown");
+    frame.kind = named(fields, "kind",
+                       {geo::FrameKind::geographic, geo::FrameKind::ups_north, geo::FrameKind::ups_south});
     if (fields.text("step_unit") != step_unit(frame.kind)) fields.wrong("step_unit", "does not fit the kind");
+    if (frame.is_polar()) {
+        read_polar_frame(fields, frame);
+        return frame;
+    }
     frame.west = fields.number("west", -180, 180);
     frame.north = fields.number("north", -90 - 1e-9, 90 + 1e-9);
     frame.step_x = fields.number("step_x", 1e-9, 360);
@@ -116,16 +147,6 @@ geo::GridFrame frame_from(JsonFields fields) {
         fields.wrong("step_y", "goes beyond the south pole");
     }
     return frame;
-}
-
-template <class Enum>
-Enum named(JsonFields& fields, const char* key, std::initializer_list<Enum> values) {
-    const std::string name = fields.text(key);
-    for (const Enum value : values) {
-        if (name == to_string(value)) return value;
-    }
-    fields.wrong(key, "is unknown");
-    return *values.begin();
 }
 
 ResamplingError resampling_from(JsonFields fields, std::string& method) {
@@ -198,6 +219,10 @@ const char* to_string(HeightType type) {
 
 const char* to_string(geo::FrameKind kind) {
     switch (kind) {
+        case geo::FrameKind::ups_north:
+            return "ups_north";
+        case geo::FrameKind::ups_south:
+            return "ups_south";
         case geo::FrameKind::geographic:
             break;
     }
@@ -205,11 +230,7 @@ const char* to_string(geo::FrameKind kind) {
 }
 
 const char* step_unit(geo::FrameKind kind) {
-    switch (kind) {
-        case geo::FrameKind::geographic:
-            break;
-    }
-    return "degree";
+    return kind == geo::FrameKind::geographic ? "degree" : "metre";
 }
 
 nlohmann::json to_json(const SceneInfo& info) {

@@ -98,9 +98,9 @@ struct SceneInfo {
 const char* to_string(VerticalDatum datum);
 /// "int16", "float32".
 const char* to_string(HeightType type);
-/// "geographic".
+/// "geographic", "ups_north", "ups_south".
 const char* to_string(geo::FrameKind kind);
-/// "degree": the unit of the frame's steps.
+/// "degree" or "metre": the unit of the frame's steps.
 const char* step_unit(geo::FrameKind kind);
 
 nlohmann::json to_json(const SceneInfo& info);

@@ -45,7 +45,7 @@ void shipped(benchmark::State& state, const lod::Terrain& terrain, const std::ve
 void textbook(benchmark::State& state, bench::Textbook& mesh, const lod::Scene& scene,
               const std::vector<lod::Camera>& cameras, double tau) {
     const geo::GridFrame& frame = scene.info().frame;
-    const auto spacing = frame.spacing(0.5 * frame.rows);
+    const auto spacing = frame.spacing({0.5 * frame.columns, 0.5 * frame.rows});
     std::size_t triangles = 0;
     std::size_t vertices = 0;
     std::size_t k = 0;
@@ -53,7 +53,7 @@ void textbook(benchmark::State& state, bench::Textbook& mesh, const lod::Scene& 
         const lod::Camera& camera = cameras[k++ % cameras.size()];
         const lod::View view(camera);
         const geo::GridPosition place = frame.grid_position({camera.eye.lat, camera.eye.lon});
-        const glm::dvec3 eye(place.column * spacing.east_m, place.row * spacing.north_m, camera.eye.h.m);
+        const glm::dvec3 eye(place.column * spacing.column_m, place.row * spacing.row_m, camera.eye.h.m);
         const geo::EnuFrame local(camera.eye);
         std::array<glm::dvec3, 4> planes;
         for (std::size_t i = 0; i < 4; ++i) {
@@ -90,8 +90,8 @@ int main(int argc, char** argv) {
         return 4;
     }
     const geo::GridFrame& frame = scene->info().frame;
-    const auto spacing = frame.spacing(0.5 * frame.rows);
-    bench::Textbook yardstick(lod::mesh_heights(frame, *heights), spacing.east_m, spacing.north_m);
+    const auto spacing = frame.spacing({0.5 * frame.columns, 0.5 * frame.rows});
+    bench::Textbook yardstick(lod::mesh_heights(frame, *heights), spacing.column_m, spacing.row_m);
     const std::vector<lod::Camera> cameras = bench::flight(*scene, 100);
 
     for (const double tau : {0.25, 1.0}) {

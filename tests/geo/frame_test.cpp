@@ -71,13 +71,13 @@ TEST(GridFrame, SpacingAgreesWithGeodesics) {
     // parallel by 1e-9.
     const GridFrame f = frame(10, 80, kArcSecond, 100, 575000);
     for (const double row : {0.0, 36000.0, 287998.0, 500000.0}) {
-        const auto spacing = f.spacing(row);
+        const auto spacing = f.spacing({0, row});
         const double north = geodesic(f.lat_lon({0, row - 0.5}), f.lat_lon({0, row + 0.5})).length_m;
         const double east = geodesic(f.lat_lon({0, row}), f.lat_lon({1, row})).length_m;
-        EXPECT_NEAR(spacing.north_m / north, 1, 1e-8);
-        EXPECT_NEAR(spacing.east_m / east, 1, 1e-8);
+        EXPECT_NEAR(spacing.row_m / north, 1, 1e-8);
+        EXPECT_NEAR(spacing.column_m / east, 1, 1e-8);
     }
-    EXPECT_NEAR(frame(0, 90, 1, 3, 3).spacing(0).east_m, 0, 1e-10);
+    EXPECT_NEAR(frame(0, 90, 1, 3, 3).spacing({0, 0}).column_m, 0, 1e-10);
 }
 
 TEST(GridFrame, PadsToTheNextPowerOfTwoPlusOne) {

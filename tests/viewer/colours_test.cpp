@@ -15,7 +15,7 @@ constexpr double kStepM = 30.87;  // 1" of latitude at 36 degrees
 /// A plane that rises to the east by `rise` metres a metre.
 lod::Terrain plane(double rise) {
     const auto frame = geographic_frame(129, 129);
-    const double east_m = frame.spacing(64).east_m;
+    const double east_m = frame.spacing({64, 64}).column_m;
     return make_terrain(frame,
                         make_heights(frame, [&](int column, int) { return 1000 + rise * east_m * column; }));
 }
