@@ -94,7 +94,7 @@ Result<geo::GeoidNodes> read_nodes(GDALDataset& dataset, const Affine& posts, co
 Result<geo::Geoid> read_geoid(const std::filesystem::path& file, const std::optional<Bounds>& area) {
     if (file.extension() == ".gtx") return geo::Geoid::from_gtx(file);
     const GdalMessages messages;
-    auto opened = open_dataset(file.string(), messages);
+    auto opened = open_dataset({file.string(), {}, {}, {}}, messages);
     if (!opened) return opened.error();
     GDALDataset& dataset = *opened->dataset;
     const std::string& name = opened->name;

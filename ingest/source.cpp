@@ -1,8 +1,10 @@
 #include "ingest/source.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -26,12 +28,14 @@ bool is_picture(GDALColorInterp interpretation) {
 Result<Source> Source::open(const SourceRequest& request) {
     Source source;
     const GdalMessages messages;
-    auto opened = open_dataset(request.input, messages);
+    auto opened = open_dataset({request.input, request.variable, request.raw, request.trust}, messages);
     if (!opened) return opened.error();
     source.opened_ = std::move(*opened);
     source.columns_ = source.opened_.dataset->GetRasterXSize();
     source.rows_ = source.opened_.dataset->GetRasterYSize();
-    if (auto chosen = source.choose_band(); !chosen) return chosen.error();
+    source.encoding_ = request.encoding;
+    if (auto chosen = request.encoding ? source.choose_colours() : source.choose_band(request.band); !chosen)
+        return chosen.error();
     GDALRasterBand& band = *source.band_;
 
     auto where = georeference(source.opened_, request.crs, request.bounds, messages);
@@ -42,7 +46,7 @@ Result<Source> Source::open(const SourceRequest& request) {
 
     int has_nodata = 0;
     const double own_nodata = band.GetNoDataValue(&has_nodata);
-    if (has_nodata != 0) source.nodata_ = own_nodata;
+    if (has_nodata != 0 && !request.encoding) source.nodata_ = own_nodata;
     if (request.nodata) {
         source.nodata_ = request.nodata;
         source.notes_.push_back(fmt::format("{} is taken as void (--nodata)", *request.nodata));
@@ -51,9 +55,11 @@ Result<Source> Source::open(const SourceRequest& request) {
     source.masked_ = (mask & (GMF_PER_DATASET | GMF_ALPHA)) != 0;
 
     VerticalClues clues;
-    clues.unit = band.GetUnitType();
-    clues.scale = band.GetScale();
-    clues.offset = band.GetOffset();
+    if (!request.encoding) {
+        clues.unit = band.GetUnitType();
+        clues.scale = band.GetScale();
+        clues.offset = band.GetOffset();
+    }
     clues.crs = source.crs_->vertical();
     clues.height_scale = request.height_scale;
     clues.height_offset = request.height_offset;
@@ -65,37 +71,76 @@ Result<Source> Source::open(const SourceRequest& request) {
     return source;
 }
 
-Result<void> Source::choose_band() {
+Result<void> Source::choose_band(const std::optional<int>& wanted) {
+    GDALDataset& dataset = *opened_.dataset;
+    const int count = dataset.GetRasterCount();
     std::vector<int> candidates;
     bool picture = false;
-    for (int i = 1; i <= opened_.dataset->GetRasterCount(); ++i) {
-        const auto interpretation = opened_.dataset->GetRasterBand(i)->GetColorInterpretation();
+    for (int i = 1; i <= count; ++i) {
+        const auto interpretation = dataset.GetRasterBand(i)->GetColorInterpretation();
         picture = picture || is_picture(interpretation);
         if (interpretation != GCI_AlphaBand) candidates.push_back(i);
     }
+    if (wanted) {
+        if (*wanted < 1 || *wanted > count)
+            return refusal(name(), fmt::format("it has no band {}", *wanted),
+                           fmt::format("Give one from 1 to {} with --band", count));
+        candidates = {*wanted};
+        picture = false;
+    }
     // Colours that are not named as such: nobody keeps heights in several bands of bytes.
-    const bool bytes = opened_.dataset->GetRasterBand(1)->GetRasterDataType() == GDT_Byte;
+    const bool bytes = count > 0 && dataset.GetRasterBand(1)->GetRasterDataType() == GDT_Byte;
     picture = picture || (candidates.size() >= 3 && bytes);
     if (picture)
         return refusal(
             name(), "it looks like an image, not like heights (colours or a palette)",
-            "Heights packed into colours (terrain-RGB) are not read yet; convert them to one band first");
-    if (candidates.empty()) return refusal(name(), "it has no band of heights", "");
-    if (candidates.size() > 1)
+            "If heights are packed into its colours, say how with --encoding terrain-rgb (Mapbox) or "
+            "--encoding terrarium; if one of its bands is heights, name it with --band");
+    if (candidates.empty()) return refusal(name(), "it has no band of heights", "Give a file with heights");
+    if (candidates.size() > 1) {
+        std::string list;
+        for (const int i : candidates) {
+            GDALRasterBand& band = *dataset.GetRasterBand(i);
+            list += fmt::format("\n  {}  {} {}", i, GDALGetDataTypeName(band.GetRasterDataType()),
+                                band.GetDescription());
+        }
         return refusal(name(),
                        fmt::format("it has {} bands, any of which could be heights", candidates.size()),
-                       "Take the one with `gdal_translate -b N` and import that");
-    band_ = opened_.dataset->GetRasterBand(candidates[0]);
+                       "Give one with --band:" + list);
+    }
+    band_ = dataset.GetRasterBand(candidates[0]);
     if (GDALDataTypeIsComplex(band_->GetRasterDataType()) != 0)
-        return refusal(name(), "its values are complex numbers, not heights", "");
+        return refusal(name(), "its values are complex numbers, not heights", "Give another band or file");
+    return {};
+}
+
+Result<void> Source::choose_colours() {
+    GDALDataset& dataset = *opened_.dataset;
+    const int count = dataset.GetRasterCount();
+    bool colours = count == 3 || count == 4;
+    for (int i = 1; colours && i <= count; ++i)
+        colours = dataset.GetRasterBand(i)->GetRasterDataType() == GDT_Byte;
+    if (!colours)
+        return refusal(name(), "it has no red, green and blue of 8 bits, so no heights are packed into them",
+                       "Leave --encoding out, or give the tile as it was served");
+    const char* compression = dataset.GetMetadataItem("COMPRESSION", "IMAGE_STRUCTURE");
+    const bool lossy =
+        EQUAL(dataset.GetDriverName(), "JPEG") ||
+        (compression != nullptr && std::string_view{compression}.find("JPEG") != std::string::npos);
+    if (lossy)
+        return refusal(name(),
+                       "it was compressed with loss, which ruins heights that are packed into colours",
+                       "Fetch it as PNG or WebP without loss");
+    band_ = dataset.GetRasterBand(1);
     return {};
 }
 
 bool Source::whole_metres() const {
-    return rule_.identity() && GDALDataTypeIsInteger(band_->GetRasterDataType()) != 0;
+    return !encoding_ && rule_.identity() && GDALDataTypeIsInteger(band_->GetRasterDataType()) != 0;
 }
 
 std::string Source::value_type() const {
+    if (encoding_) return "Float32";  // a tenth or a 256th of a metre
     return GDALGetDataTypeName(band_->GetRasterDataType());
 }
 
@@ -113,14 +158,40 @@ Result<lod::Raster<double>> Source::read(Window window) const {
     return heights;
 }
 
-Result<void> Source::read_values(Window window, lod::Raster<double>& into, int column, int row) const {
-    const GdalMessages messages;
-    const auto line = static_cast<GSpacing>(into.columns()) * static_cast<GSpacing>(sizeof(double));
-    if (band_->RasterIO(GF_Read, window.column, window.row, window.columns, window.rows,
-                        &into.at(column, row), window.columns, window.rows, GDT_Float64, sizeof(double), line,
-                        nullptr) != CE_None)
+Result<void> Source::read_band(Window window, double* into, GSpacing line,
+                               const GdalMessages& messages) const {
+    if (band_->RasterIO(GF_Read, window.column, window.row, window.columns, window.rows, into, window.columns,
+                        window.rows, GDT_Float64, sizeof(double), line, nullptr) == CE_None)
+        return {};
+    return refusal(name(), fmt::format("it is cut short or damaged ({})", messages.text()), "Fetch it again");
+}
+
+Result<void> Source::read_colours(Window window, double* into, std::ptrdiff_t columns,
+                                  const GdalMessages& messages) const {
+    lod::Raster<std::array<std::uint8_t, 3>> colours{window.columns, window.rows};
+    int bands[] = {1, 2, 3};
+    const auto line = static_cast<GSpacing>(window.columns) * 3;
+    if (opened_.dataset->RasterIO(GF_Read, window.column, window.row, window.columns, window.rows,
+                                  colours.row(0), window.columns, window.rows, GDT_Byte, 3, bands, 3, line, 1,
+                                  nullptr) != CE_None)
         return refusal(name(), fmt::format("it is cut short or damaged ({})", messages.text()),
                        "Fetch it again");
+    for (int r = 0; r < window.rows; ++r)
+        for (int c = 0; c < window.columns; ++c) {
+            const auto [red, green, blue] = colours.at(c, r);
+            into[r * columns + c] = decoded_height(*encoding_, red, green, blue);
+        }
+    return {};
+}
+
+Result<void> Source::read_values(Window window, lod::Raster<double>& into, int column, int row) const {
+    const GdalMessages messages;
+    double* first = &into.at(column, row);
+    const auto line = static_cast<GSpacing>(into.columns()) * static_cast<GSpacing>(sizeof(double));
+    if (auto done = encoding_ ? read_colours(window, first, into.columns(), messages)
+                              : read_band(window, first, line, messages);
+        !done)
+        return done;
 
     lod::Raster<std::uint8_t> mask;
     if (masked_) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "geo/result.hpp"
 #include "ingest/affine.hpp"
 #include "ingest/crs.hpp"
+#include "ingest/height_encoding.hpp"
 #include "ingest/open_dataset.hpp"
 #include "ingest/vertical.hpp"
 #include "lod/scene/raster.hpp"
@@ -23,6 +25,12 @@ struct SourceRequest {
     std::optional<double> height_scale;
     double height_offset = 0;
     std::optional<lod::VerticalDatum> vertical;
+
+    std::optional<int> band;                 ///< from 1; else the only one that could be heights
+    std::optional<std::string> variable;     ///< of a container (NetCDF, HDF); else its only one
+    std::optional<RawLayout> raw;            ///< the file has no header, but this layout
+    std::optional<HeightEncoding> encoding;  ///< heights are packed into colours
+    Trust trust;
 };
 
 /// An open elevation raster that has passed all checks which need no heights to be read.
@@ -49,12 +57,17 @@ class Source {
   private:
     Source() = default;
 
-    Result<void> choose_band();
+    Result<void> choose_band(const std::optional<int>& wanted);
+    Result<void> choose_colours();
     Result<void> read_values(Window window, lod::Raster<double>& into, int column, int row) const;
+    Result<void> read_band(Window window, double* into, GSpacing line, const GdalMessages& messages) const;
+    Result<void> read_colours(Window window, double* into, std::ptrdiff_t columns,
+                              const GdalMessages& messages) const;
     bool is_void(double value) const;
 
     OpenDataset opened_;
-    GDALRasterBand* band_ = nullptr;
+    GDALRasterBand* band_ = nullptr;  // red where heights are packed into colours
+    std::optional<HeightEncoding> encoding_;
     int columns_ = 0;
     int rows_ = 0;
     std::optional<Crs> crs_;

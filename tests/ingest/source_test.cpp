@@ -68,13 +68,13 @@ TEST(SourceRefuses, PicturesAndSeveralBands) {
     raster.bands = 3;
     raster.creation_options = {"PHOTOMETRIC=RGB"};
     EXPECT_TRUE(test::says(refusal_of(request_for(raster.write(folder / "rgb.tif"))),
-                           {"rgb.tif", "image", "terrain-RGB"}));
+                           {"rgb.tif", "image", "--encoding terrain-rgb", "terrarium"}));
     raster.creation_options = {"PHOTOMETRIC=MINISBLACK"};
     EXPECT_TRUE(
         test::says(refusal_of(request_for(raster.write(folder / "grey.tif"))), {"grey.tif", "image"}));
     raster.type = GDT_Int16;
     EXPECT_TRUE(test::says(refusal_of(request_for(raster.write(folder / "three.tif"))),
-                           {"3 bands", "gdal_translate -b"}));
+                           {"3 bands", "--band", "\n  3  Int16"}));
     raster.bands = 1;
     raster.type = GDT_Byte;
     raster.creation_options = {"PHOTOMETRIC=PALETTE"};
@@ -149,11 +149,94 @@ TEST(SourceRefuses, SeveralVariables) {
     raster.driver = "netCDF";
     const auto file = raster.write(folder / "two.nc");
     EXPECT_TRUE(test::says(refusal_of(request_for(file)),
-                           {"two.nc", "several variables", "NETCDF:", "Band1", "Band2"}));
+                           {"two.nc", "several variables", "--variable", "two.nc:NAME", "Band1", "Band2"}));
     const auto one = Source::open(request_for("NETCDF:\"" + file.string() + "\":Band2"));
     ASSERT_TRUE(one) << one.error().message;
     EXPECT_EQ(one->name(), "two.nc:Band2");
     EXPECT_EQ(one->file(), file);
+
+    auto request = request_for(file.string() + ":Band2");
+    const auto shorter = Source::open(request);
+    ASSERT_TRUE(shorter) << shorter.error().message;
+    EXPECT_EQ(shorter->name(), "two.nc:Band2");
+    EXPECT_EQ(shorter->file(), file);
+    request = request_for(file);
+    request.variable = "Band1";
+    EXPECT_TRUE(Source::open(request));
+    request.variable = "Band3";
+    EXPECT_TRUE(test::says(refusal_of(request), {"two.nc", "no variable 'Band3'", "Band1", "Band2"}));
+}
+
+TEST(SourceRefuses, VariablesThatAreNotThere) {
+    if (GDALAllRegister(); GetGDALDriverManager()->GetDriverByName("netCDF") == nullptr)
+        GTEST_SKIP() << "no netCDF here";
+    const SceneFolder folder;
+    SyntheticRaster raster;
+    raster.driver = "netCDF";
+    auto request = request_for(raster.write(folder / "one.nc"));
+    EXPECT_TRUE(Source::open(request));
+    request.variable = "Band1";
+    EXPECT_TRUE(Source::open(request));
+    request.variable = "elevation";
+    EXPECT_TRUE(test::says(refusal_of(request), {"one.nc", "no variable 'elevation'"}));
+}
+
+TEST(Source, ABandOfSeveral) {
+    const SceneFolder folder;
+    SyntheticRaster raster;
+    raster.bands = 3;
+    auto request = request_for(raster.write(folder / "three.tif"));
+    {
+        const DatasetPtr dataset{GDALDataset::Open(request.input.c_str(), GDAL_OF_UPDATE)};
+        ASSERT_EQ(dataset->GetRasterBand(2)->Fill(77), CE_None);
+    }
+    request.band = 2;
+    EXPECT_EQ(all_of(request).at(3, 3), 77);
+    request.band = 4;
+    EXPECT_TRUE(test::says(refusal_of(request), {"three.tif", "no band 4", "1 to 3"}));
+    request.band = 0;
+    EXPECT_TRUE(test::says(refusal_of(request), {"no band 0"}));
+}
+
+TEST(Source, HeightsPackedIntoColours) {
+    const SceneFolder folder;
+    const int mapbox[3] = {1, 134, 160};      // 65536 + 134 * 256 + 160 = 100 000: 0 m
+    const int terrarium[3] = {128, 100, 64};  // 128 * 256 + 100 + 64 / 256 = 32768 + 100.25
+    for (const bool is_mapbox : {true, false}) {
+        SyntheticRaster raster;
+        raster.type = GDT_Byte;
+        raster.bands = 3;
+        raster.creation_options = {"PHOTOMETRIC=RGB"};
+        auto request = request_for(raster.write(folder / "tile.tif"));
+        {
+            const DatasetPtr dataset{GDALDataset::Open(request.input.c_str(), GDAL_OF_UPDATE)};
+            for (int i = 0; i < 3; ++i) {
+                ASSERT_EQ(dataset->GetRasterBand(i + 1)->Fill(is_mapbox ? mapbox[i] : terrarium[i]), CE_None);
+                std::uint8_t none = 0;
+                ASSERT_EQ(dataset->GetRasterBand(i + 1)->RasterIO(GF_Write, 5, 5, 1, 1, &none, 1, 1, GDT_Byte,
+                                                                  0, 0, nullptr),
+                          CE_None);
+            }
+        }
+        request.encoding = is_mapbox ? HeightEncoding::terrain_rgb : HeightEncoding::terrarium;
+        const auto heights = all_of(request);
+        EXPECT_EQ(heights.at(0, 0), is_mapbox ? 0 : 100.25);
+        EXPECT_TRUE(std::isnan(heights.at(5, 5)));
+        const auto source = Source::open(request);
+        ASSERT_TRUE(source);
+        EXPECT_FALSE(source->whole_metres());
+    }
+    auto grey = request_for(SyntheticRaster{}.write(folder / "grey.tif"));
+    grey.encoding = HeightEncoding::terrain_rgb;
+    EXPECT_TRUE(test::says(refusal_of(grey), {"grey.tif", "red, green and blue"}));
+    SyntheticRaster raster;
+    raster.columns = raster.rows = 16;
+    raster.type = GDT_Byte;
+    raster.bands = 3;
+    raster.creation_options = {"COMPRESS=JPEG", "PHOTOMETRIC=YCBCR"};
+    auto lossy = request_for(raster.write(folder / "lossy.tif"));
+    lossy.encoding = HeightEncoding::terrarium;
+    EXPECT_TRUE(test::says(refusal_of(lossy), {"lossy.tif", "loss"}));
 }
 
 TEST(Source, CutFilesAreToldFromWholeOnes) {
