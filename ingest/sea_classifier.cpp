@@ -10,10 +10,10 @@ using Request = lod::SeaInfo::Request;
 
 SeaRequest sea_request_from(const std::string& word) {
     if (word.empty()) return {};
-    if (word == "auto") return {Request::automatic, {}};
-    if (word == "none") return {Request::none, {}};
-    if (word == "depths") return {Request::depths, {}};
-    return {Request::mask, word};
+    if (word == "auto") return {Request::automatic, {}, {}};
+    if (word == "none") return {Request::none, {}, {}};
+    if (word == "depths") return {Request::depths, {}, {}};
+    return {Request::mask, word, {}};
 }
 
 SeaClassifier::SeaClassifier(const geo::GridFrame& frame, const SeaRequest& request, int block_side)
@@ -33,7 +33,7 @@ Result<SeaClassifier> SeaClassifier::create(const geo::GridFrame& frame, const S
                                             int block_side) {
     SeaClassifier classifier{frame, request, block_side};
     if (request.kind == Request::mask) {
-        auto mask = SeaMask::open(request.mask_file, frame);
+        auto mask = SeaMask::open(request.mask_file, request.trust, frame);
         if (!mask) return mask.error();
         classifier.mask_ = std::make_unique<SeaMask>(std::move(*mask));
     }

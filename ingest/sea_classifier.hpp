@@ -23,6 +23,7 @@ namespace relevo::ingest {
 struct SeaRequest {
     lod::SeaInfo::Request kind = lod::SeaInfo::Request::unasked;
     std::string mask_file;  ///< of a mask: polygons or a raster
+    Trust trust;            ///< of the mask's file
 };
 /// From the command line's word: "auto", "none", "depths", or else a file's name.
 SeaRequest sea_request_from(const std::string& word);

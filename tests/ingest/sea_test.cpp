@@ -132,7 +132,7 @@ TEST(SeaClassifier, FindsTheSameAroundVoids) {
         const Heights heights = random_ground(seed, 90, 70, false, 0.5);
         const auto expected = flooded(heights, true);
         for (const int side : {7, 32, 512}) {
-            const Classified scene = classify(heights, {SeaInfo::Request::depths, {}}, side);
+            const Classified scene = classify(heights, {SeaInfo::Request::depths, {}, {}}, side);
             for (std::size_t i = 0; i < expected.size(); ++i) {
                 if (std::isnan(heights.samples()[i])) continue;
                 ASSERT_EQ(scene.marks.samples()[i].post_class() == PostClass::sea, expected[i])
