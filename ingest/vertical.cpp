@@ -45,18 +45,44 @@ constexpr std::array kUnits{
     NamedUnit{"feet", kFoot},
     NamedUnit{"internationalfoot", kFoot},
     NamedUnit{"internationalfeet", kFoot},
+    NamedUnit{"footinternational", kFoot},
+    NamedUnit{"footintl", kFoot},
+    NamedUnit{"fti", kFoot},
+    NamedUnit{"ftint", kFoot},
+    NamedUnit{"intft", kFoot},
     NamedUnit{"ftus", kSurveyFoot},
     NamedUnit{"usft", kSurveyFoot},
     NamedUnit{"sft", kSurveyFoot},
     NamedUnit{"ussurveyfoot", kSurveyFoot},
     NamedUnit{"ussurveyfeet", kSurveyFoot},
+    NamedUnit{"ussurveyft", kSurveyFoot},
+    NamedUnit{"usfoot", kSurveyFoot},
+    NamedUnit{"usfeet", kSurveyFoot},
     NamedUnit{"footus", kSurveyFoot},
+    NamedUnit{"feetus", kSurveyFoot},
+    NamedUnit{"footussurvey", kSurveyFoot},
+    NamedUnit{"feetussurvey", kSurveyFoot},
+    NamedUnit{"ftussurvey", kSurveyFoot},
+    NamedUnit{"surveyft", kSurveyFoot},
     NamedUnit{"surveyfoot", kSurveyFoot},
     NamedUnit{"surveyfeet", kSurveyFoot},
 };
 
+/// "9003", "EPSG:9003": the codes that units of length have in WKT and in GeoTIFF keys.
+std::optional<double> unit_of_epsg(const std::string& name) {
+    const std::string code = name.rfind("EPSG:", 0) == 0 ? name.substr(5) : name;
+    if (code == "9001") return 1;
+    if (code == "9002") return kFoot;
+    if (code == "9003") return kSurveyFoot;
+    return {};
+}
+
 bool is_unnamed(const std::string& name) {
-    return name.empty() || name == "unknown" || name == "unnamed";
+    std::string plain;
+    for (const char c : name) plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    constexpr std::array<std::string_view, 7> kNothing{"",          "unknown", "unnamed", "unspecified",
+                                                       "undefined", "none",    "n/a"};
+    return std::find(kNothing.begin(), kNothing.end(), plain) != kNothing.end();
 }
 
 lod::VerticalReference reference(const VerticalClues& clues, std::vector<std::string>& notes) {
@@ -87,7 +113,7 @@ Result<double> unit_in_metres(const VerticalClues& clues, std::vector<std::strin
         return *clues.height_scale;
     }
     std::optional<double> band;
-    if (!clues.unit.empty()) {
+    if (!is_unnamed(clues.unit)) {
         band = length_unit(clues.unit);
         if (!band)
             return Error{
@@ -96,8 +122,10 @@ Result<double> unit_in_metres(const VerticalClues& clues, std::vector<std::strin
                             "give metres per unit with --height-scale",
                             clues.unit)};
     }
-    // A CRS without a usable name still tells its unit.
-    if (band && clues.crs && std::abs(*band - clues.crs->unit_m) > 1e-9)
+    // A CRS without a usable name still tells its unit. Old definitions round it ("Foot_US", 0.3048006), but
+    // not so far that the two feet, 6e-7 m apart, become one.
+    constexpr double kRounding = 1e-7;
+    if (band && clues.crs && std::abs(*band - clues.crs->unit_m) > kRounding)
         return Error{
             ErrorKind::input,
             fmt::format("the band's unit is '{}', but its vertical CRS '{}' has a unit of {} m. Give metres "
@@ -111,6 +139,7 @@ Result<double> unit_in_metres(const VerticalClues& clues, std::vector<std::strin
 }  // namespace
 
 std::optional<double> length_unit(const std::string& name) {
+    if (const auto code = unit_of_epsg(name)) return code;
     std::string plain;
     for (const char c : name)
         if (std::isalpha(static_cast<unsigned char>(c)) != 0)

@@ -13,9 +13,10 @@ VerticalCrs vertical_crs(const std::string& definition) {
 }
 
 TEST(LengthUnit, FeetOfBothKinds) {
-    for (const char* name : {"ft", "foot", "Feet", "International foot"})
+    for (const char* name : {"ft", "foot", "Feet", "International foot", "[ft_i]", "9002", "EPSG:9002"})
         EXPECT_EQ(length_unit(name), 0.3048) << name;
-    for (const char* name : {"US survey foot", "us_survey_foot", "ft-us", "US-ft", "survey feet"})
+    for (const char* name : {"US survey foot", "us_survey_foot", "ft-us", "US-ft", "survey feet", "ftUS",
+                             "us-ft", "Foot_US", "US foot", "feet (US survey)", "9003", "EPSG:9003"})
         EXPECT_EQ(length_unit(name), 1200.0 / 3937) << name;
     for (const char* name : {"m", "metre", "Meters", "M"}) EXPECT_EQ(length_unit(name), 1) << name;
     for (const char* name : {"", "K", "degree", "m/s", "mm/day", "1"})
@@ -87,6 +88,17 @@ TEST(HeightRule, HeightScaleStandsForTheUnit) {
     EXPECT_EQ((*rule)(8), 2);
 }
 
+TEST(HeightRule, ARoundedUnitIsNoContradiction) {
+    VerticalClues clues;
+    clues.unit = "US survey foot";
+    clues.crs = VerticalCrs{.name = "old", .code = "", .unit_m = 0.3048006};
+    const auto rule = height_rule(clues);
+    ASSERT_TRUE(rule);
+    EXPECT_EQ(rule->scale, 1200.0 / 3937);
+    clues.unit = "ft";
+    EXPECT_FALSE(height_rule(clues));
+}
+
 TEST(HeightRule, RefusesContradictions) {
     VerticalClues clues;
     clues.unit = "m";
@@ -94,6 +106,14 @@ TEST(HeightRule, RefusesContradictions) {
     const auto rule = height_rule(clues);
     ASSERT_FALSE(rule);
     EXPECT_NE(rule.error().message.find("--height-scale"), std::string::npos);
+    clues.unit = "ft";
+    EXPECT_FALSE(height_rule(clues));  // the other foot
+    clues.crs = vertical_crs("EPSG:32611+8228");
+    EXPECT_TRUE(height_rule(clues));
+    clues.unit = "us-ft";
+    EXPECT_FALSE(height_rule(clues));
+    clues.crs = vertical_crs("EPSG:32611+5703");
+    EXPECT_FALSE(height_rule(clues));
     VerticalClues flat;
     flat.height_scale = 0;
     EXPECT_FALSE(height_rule(flat));
