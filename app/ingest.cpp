@@ -10,6 +10,7 @@
 #include <signal.h>
 
 #include "app/command.hpp"
+#include "app/source_flags.hpp"
 #include "ingest/import.hpp"
 
 namespace relevo::app {
@@ -27,6 +28,7 @@ struct Settings {
     std::optional<double> height_scale;
     double height_offset = 0;
     std::string vertical;
+    SourceFlags source;
     std::string resampling;
     std::vector<double> resolution;
     std::vector<double> crop;
@@ -72,6 +74,7 @@ ingest::ImportOptions options_of(const Settings& s) {
     options.source.height_offset = s.height_offset;
     if (s.vertical == "egm96") options.source.vertical = lod::VerticalDatum::egm96;
     if (s.vertical == "ellipsoid") options.source.vertical = lod::VerticalDatum::ellipsoid;
+    s.source.apply(options.source);
     options.target.crop = bounds_of(s.crop);
     if (!s.resolution.empty()) options.target.resolution = {s.resolution.front(), s.resolution.back()};
     options.resampling = ingest::resampling_from(s.resampling);
@@ -219,6 +222,7 @@ void add_ingest(CLI::App& program, Action& action) {
     command.add_option("--height-offset", s.height_offset, "Metres added to heights");
     command.add_option("--vertical", s.vertical, "What heights are above, in place of what the file says")
         ->check(CLI::IsMember({"egm96", "ellipsoid"}));
+    s.source.add_to(command);
     command.add_option("--resampling", s.resampling, "Default: cubic, or average where the scene is coarser")
         ->check(CLI::IsMember({"cubic", "bilinear", "nearest", "average"}));
     command
