@@ -41,19 +41,33 @@ void SourceMap::from_lon_lat(std::span<Place> places) const {
 }
 
 void GridMap::to_source(std::span<Place> scene_posts) const {
-    for (Place& post : scene_posts)
-        post = {frame_.west + post.x * frame_.step_x, frame_.north - post.y * frame_.step_y};
+    if (frame_.is_polar()) {
+        for (Place& post : scene_posts) {
+            const geo::LatLon at = frame_.lat_lon({post.x, post.y});
+            post = {at.lon.value, at.lat.value};
+        }
+    } else {
+        for (Place& post : scene_posts)
+            post = {frame_.west + post.x * frame_.step_x, frame_.north - post.y * frame_.step_y};
+    }
     source_.from_lon_lat(scene_posts);
 }
 
 void GridMap::to_scene(std::span<Place> source_posts) const {
     source_.to_lon_lat(source_posts);
-    for (Place& place : source_posts) {
-        // The frame's west is in [-180, 180) whichever turn the source's longitudes are in.
-        const double middle = frame_.west + 0.5 * frame_.step_x * (frame_.columns - 1);
+    if (frame_.is_polar()) {
+        for (Place& place : source_posts) {
+            if (std::isnan(place.x)) continue;
+            const auto at = frame_.grid_position({geo::Degrees{place.y}, geo::Degrees{place.x}});
+            place = {at.column, at.row};
+        }
+        return;
+    }
+    // The frame's west is in [-180, 180) whichever turn the source's longitudes are in.
+    const double middle = frame_.west + 0.5 * frame_.step_x * (frame_.columns - 1);
+    for (Place& place : source_posts)
         place = {(unwrapped(place.x, middle, 360) - frame_.west) / frame_.step_x,
                  (frame_.north - place.y) / frame_.step_y};
-    }
 }
 
 }  // namespace relevo::ingest

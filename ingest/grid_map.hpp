@@ -24,6 +24,13 @@ class SourceMap {
     double middle_lon() const { return middle_lon_; }
     void set_middle_lon(double lon) { middle_lon_ = lon; }
 
+    /// Moves a geographic source's columns by whole turns to around a meridian, for sources all round the
+    /// earth.
+    void set_columns_around(double lon) {
+        if (full_turn_ > 0) middle_x_ = lon * (full_turn_ / 360);
+    }
+
+    const Affine& posts() const { return posts_; }
     int columns() const { return columns_; }
     int rows() const { return rows_; }
 
@@ -38,7 +45,7 @@ class SourceMap {
     double full_turn_ = 0;  // likewise; 0 for a projected one
 };
 
-/// Between posts of a source and posts of a geographic grid.
+/// Between posts of a source and posts of a scene's grid.
 class GridMap {
   public:
     GridMap(const SourceMap& source, const geo::GridFrame& frame) : source_(source), frame_(frame) {}

@@ -11,10 +11,10 @@
 #include "geo/frame.hpp"
 #include "geo/result.hpp"
 #include "ingest/affine.hpp"
+#include "ingest/frame_choice.hpp"
 #include "ingest/progress.hpp"
 #include "ingest/resample.hpp"
 #include "ingest/source.hpp"
-#include "ingest/target_frame.hpp"
 #include "lod/scene/post_mark.hpp"
 #include "lod/scene/raster.hpp"
 #include "lod/scene/scene_info.hpp"
@@ -34,9 +34,10 @@ struct MosaicRequest {
     std::optional<Resampling>
         resampling;  ///< else cubic, or average where the scene is coarser than a source
     Priority priority = Priority::finest;
-    double feather_m = 0;                     ///< width of the blend inside a finer source's border, metres
-    std::optional<lod::VerticalDatum> datum;  ///< of the scene; else the finest source's
-    std::optional<std::filesystem::path> geoid;  ///< a grid for datums whose geoid is not here
+    double feather_m = 0;  ///< width of the blend inside a finer source's border, metres
+    std::optional<lod::VerticalReference> datum;  ///< of the scene (vertical_reference_named); else the
+                                                  ///< finest source's
+    std::optional<std::filesystem::path> geoid;   ///< a grid for datums whose geoid is not here
 };
 
 /// A part of the mosaic. Void posts have the height NaN and the mark's class void; all others are land.

@@ -176,6 +176,7 @@ Result<Operation> Operation::to_wgs84(const Crs& crs, std::span<const Place> pla
 }
 
 void Operation::transform(std::span<Place> places, PJ_DIRECTION direction) const {
+    const std::scoped_lock one_at_a_time{*one_at_a_time_};
     run(operation_.get(), direction, places);
 }
 

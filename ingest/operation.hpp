@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,6 +15,7 @@ namespace relevo::ingest {
 /// The one coordinate operation that brings a source's CRS to WGS 84 latitude and longitude. PROJ may hold
 /// several for a pair of CRSs and changes silently between them, down to doing nothing where a grid is
 /// missing; here it is a single one, chosen once, named and with its stated accuracy.
+/// Any thread may use it; PROJ is asked by one at a time.
 class Operation {
   public:
     /// The best operation whose grids are here: defined at the most of the places, and never a ballpark one.
@@ -37,6 +39,7 @@ class Operation {
 
     std::shared_ptr<PJ_CONTEXT> context_;
     PjPtr operation_;
+    std::unique_ptr<std::mutex> one_at_a_time_ = std::make_unique<std::mutex>();
     std::string name_;
     std::optional<double> accuracy_m_;
     std::string note_;

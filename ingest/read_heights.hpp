@@ -17,15 +17,11 @@ struct OwnHeights {
     lod::Raster<float> heights;
     lod::ResamplingError rounding;
 };
-Result<OwnHeights> read_own_heights(const Source& source, const OwnPosts& own, const Stage& stage);
+Result<OwnHeights> read_own_heights(const Source& source, const OwnWindow& own, const Stage& stage);
 
 /// Heights at the frame's posts, void = NaN. Work goes in blocks of the scene's block side, rows of a block
 /// in parallel; a post's height depends neither on threads nor on how much of the source is read at once.
 Result<lod::Raster<float>> warp_heights(const Source& source, const GridMap& map, const geo::GridFrame& frame,
                                         Resampling method, const Stage& stage);
-
-/// The same for a window of the frame, which may start anywhere.
-Result<lod::Raster<float>> warp_block(const Source& source, const GridMap& map, const geo::GridFrame& frame,
-                                      Resampling method, Window window);
 
 }  // namespace relevo::ingest

@@ -5,7 +5,7 @@
 
 namespace relevo::ingest {
 
-Result<OwnHeights> read_own_heights(const Source& source, const OwnPosts& own, const Stage& stage) {
+Result<OwnHeights> read_own_heights(const Source& source, const OwnWindow& own, const Stage& stage) {
     constexpr int kStrip = 256;  // rows read at once
     const Window& window = own.window;
     OwnHeights read{lod::Raster<float>{window.columns, window.rows}, {}};

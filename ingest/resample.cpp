@@ -17,12 +17,6 @@ constexpr std::array<std::pair<Resampling, const char*>, 4> kNames{{
     {Resampling::average, "average"},
 }};
 
-/// Weights of the posts at -1, 0, 1, 2 for a place at t in [0, 1) after post 0.
-std::array<double, 4> keys_weights(double t) {
-    return {t * (-0.5 + t * (1 - 0.5 * t)), 1 + t * t * (-2.5 + 1.5 * t), t * (0.5 + t * (2 - 1.5 * t)),
-            t * t * (-0.5 + 0.5 * t)};
-}
-
 /// The cell of a place: the post north-west of it, in the part, and how far the place is from it.
 struct Cell {
     int column;
@@ -142,6 +136,11 @@ std::optional<Resampling> resampling_from(const std::string& text) {
     for (const auto& [value, name] : kNames)
         if (text == name) return value;
     return {};
+}
+
+std::array<double, 4> keys_weights(double t) {
+    return {t * (-0.5 + t * (1 - 0.5 * t)), 1 + t * t * (-2.5 + 1.5 * t), t * (0.5 + t * (2 - 1.5 * t)),
+            t * t * (-0.5 + 0.5 * t)};
 }
 
 int reach(Resampling method, Footprint footprint) {

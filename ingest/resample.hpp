@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -29,6 +30,9 @@ struct Footprint {
     double half_columns = 0.5;
     double half_rows = 0.5;
 };
+
+/// Weights of cubic convolution for the posts at -1, 0, 1, 2 for a place at t in [0, 1) after post 0.
+std::array<double, 4> keys_weights(double t);
 
 /// How far around a place its height may depend on the source, in posts.
 int reach(Resampling method, Footprint footprint);

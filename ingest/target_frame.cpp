@@ -143,7 +143,7 @@ Axis fixed(double span, double step) {
 Result<Target> own_grid(const std::string& name, const Affine& posts, const SourceMap& map,
                         const TargetRequest& request) {
     Target target;
-    OwnPosts own{{0, 0, map.columns(), map.rows()}, posts.x_column<0, posts.y_row> 0};
+    OwnWindow own{{0, 0, map.columns(), map.rows()}, posts.x_column<0, posts.y_row> 0};
     const double step_x = std::abs(posts.x_column);
     const double step_y = std::abs(posts.y_row);
     double west = own.flip_columns ? posts.x0 + posts.x_column * (map.columns() - 1) : posts.x0;

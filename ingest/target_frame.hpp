@@ -8,25 +8,13 @@
 #include "geo/frame.hpp"
 #include "geo/result.hpp"
 #include "ingest/affine.hpp"
+#include "ingest/frame_choice.hpp"
 #include "ingest/grid_map.hpp"
 
 namespace relevo::ingest {
 
-/// What a scene's grid runs along.
-enum class FrameChoice {
-    automatic,   ///< UPS where the middle of the data is beyond 75 degrees, else geographic
-    geographic,  ///< equal steps of longitude and latitude
-    ups,         ///< equal steps of easting and northing around the nearer pole
-};
-
-struct TargetRequest {
-    FrameChoice frame = FrameChoice::automatic;
-    std::optional<Bounds> crop;                           ///< degrees
-    std::optional<std::pair<double, double>> resolution;  ///< steps of longitude and latitude, degrees
-};
-
 /// A source whose posts are a geographic grid already: these of its posts, as they are.
-struct OwnPosts {
+struct OwnWindow {
     Window window;
     bool flip_columns = false;  ///< the source runs east to west
     bool flip_rows = false;     ///< the source runs south to north
@@ -35,8 +23,8 @@ struct OwnPosts {
 /// The grid of a scene, and how it gets its heights.
 struct Target {
     geo::GridFrame frame;
-    std::optional<OwnPosts> own;  ///< else heights are resampled
-    bool downsamples = false;     ///< its posts are farther apart than the source's
+    std::optional<OwnWindow> own;  ///< else heights are resampled
+    bool downsamples = false;      ///< its posts are farther apart than the source's
     std::vector<std::string> notes;
 };
 
