@@ -58,7 +58,9 @@ GridPosition GridFrame::grid_position(LatLon place) const {
     }
     const double middle = 0.5 * (columns - 1);
     const double from_middle = std::remainder(place.lon.value - (west + middle * step_x), 360.0);
-    return {middle + from_middle / step_x, (north - place.lat.value) / step_y};
+    double column = middle + from_middle / step_x;
+    if (closes()) column = std::clamp(column, 0.0, static_cast<double>(columns - 1));
+    return {column, (north - place.lat.value) / step_y};
 }
 
 Ecef GridFrame::ecef(GridPosition place, EllipsoidalHeight h) const {

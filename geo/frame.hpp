@@ -46,7 +46,8 @@ struct GridFrame {
     /// The inverse of lat_lon, whichever turn lon is given in. In a geographic grid the column is the one
     /// nearest to the middle of the data, so that a scene across the antimeridian is found from both sides.
     /// Round trip: 1e-9 posts for steps of 1", in a polar grid 3e-9 m. The pole that a polar grid is not
-    /// around is somewhere very far, but finite.
+    /// around is somewhere very far, but finite. A place between the last column and the first of a grid that
+    /// closes is at the nearer of the two: they are the same place, to half a step.
     GridPosition grid_position(LatLon place) const;
 
     /// ECEF position of a place in the grid at height h, by GeographicLib: the exact path. The fast one is

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include <glm/vec3.hpp>
@@ -37,6 +38,24 @@ class PolarPositions {
         const Place p = place(column, row);
         return {p.cos_lat_by_t * p.x, p.cos_lat_by_t * p.y, p.sin_lat};
     }
+
+    /// As GridFrame::spacing, to 1e-13 of it.
+    GridFrame::Spacing spacing(double column, double row) const {
+        const Place p = place(column, row);
+        const double per_unit = radius_(p.v) * p.cos_lat_by_t;
+        return {y_column_ * per_unit, std::abs(x_row_) * per_unit};
+    }
+
+    /// The grid in a plane on which the conformal sphere is projected from the other pole, its equator being
+    /// the unit circle: x towards longitude 0, y towards longitude 90.
+    struct Plane {
+        double x;  // of the post (0, 0)
+        double y;
+        double x_row;  // growth of x with a row
+        double y_column;
+        double pole;  // 1 in the north, -1 in the south
+    };
+    Plane plane() const { return {x_, y_, x_row_, y_column_, pole_}; }
 
   private:
     static constexpr double kPolarCut = 1 - wgs84::kEccentricity2;  // z = (1 - e^2) across sin(lat)

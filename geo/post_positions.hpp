@@ -35,6 +35,9 @@ class PostPositions {
         return {r.cos_lat * c.cos_lon, r.cos_lat * c.sin_lon, r.sin_lat};
     }
 
+    /// What a polar grid's positions come from; none for a geographic one.
+    const PolarPositions* polar() const { return polar_ ? &*polar_ : nullptr; }
+
   private:
     struct Row {
         double from_axis;  // distance of the ellipsoid from the earth's axis at this latitude, m

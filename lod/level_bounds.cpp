@@ -40,11 +40,15 @@ UndulationDerivatives undulation_derivatives(const UndulationGrid& undulations) 
     return {kPeak * std::sqrt(2.0) * slope / spacing, kPeak * (bend + twist) / (spacing * spacing)};
 }
 
-}  // namespace
+/// Largest first and second derivatives of a place on the ellipsoid along any direction, per post and per
+/// post^2.
+struct EllipsoidDerivatives {
+    double first_m = 0;
+    double second_m = 0;
+};
 
-std::vector<LevelBound> level_bounds(const geo::GridFrame& frame, const UndulationGrid& undulations) {
+EllipsoidDerivatives geographic_derivatives(const geo::GridFrame& frame) {
     using namespace geo::wgs84;
-    const int levels = frame.levels();
     const double south = frame.lat_lon({0, static_cast<double>(frame.padded_side() - 1)}).lat.radians();
     const double north = frame.lat_lon({0, 0}).lat.radians();
     const double cos_max =
@@ -61,10 +65,43 @@ std::vector<LevelBound> level_bounds(const geo::GridFrame& frame, const Undulati
     const double xy = polar_radius * x * y;
     const double bend = 0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy);
     const double stretch = std::max(polar_radius * cos_max * x, polar_radius * y);
+    return {1.001 * stretch, 1.001 * bend};
+}
 
+/// UPS is conformal: a metre of the plane is 1 / k on the ground. Of the second derivative the ellipsoid's
+/// curvature is the normal part; the tangential part is the gradient of ln k, which on the ground is (1 - sin
+/// lat) / (radius of the parallel), all over k^2. Both are largest where k is smallest, 0.994 at the pole,
+/// but for the gradient, which is about t / (1 + t^2)^2 over the semi-axis with t = tan of half the angle
+/// from the pole.
+EllipsoidDerivatives polar_derivatives(const geo::GridFrame& frame) {
+    using namespace geo::wgs84;
+    constexpr double kPoleScale = 0.994;
+    constexpr double kSteepest = 0.325;  // the most that t / (1 + t^2)^2 can be
+    const double last = frame.padded_side() - 1;
+    double t = 0;
+    for (const geo::GridPosition corner : {geo::GridPosition{0, 0}, geo::GridPosition{last, 0},
+                                           geo::GridPosition{0, last}, geo::GridPosition{last, last}}) {
+        const double lat = frame.lat_lon(corner).lat.value;
+        const double from_pole = 90 - (frame.kind == geo::FrameKind::ups_north ? lat : -lat);
+        t = std::max(t, std::tan(geo::Degrees{0.5 * from_pole}.radians()));
+    }
+    const double curvature =
+        kSemiMajor / (kSemiMinor * kSemiMinor);  // of the meridian at the equator: the most
+    const double gradient = std::min(t, kSteepest) / kSemiMinor;
+    const double step = std::max(frame.step_x, frame.step_y) / kPoleScale;
+    // 1 %: what the ellipsoid makes of a sphere's t and gradient.
+    return {step, 1.01 * step * step * std::hypot(curvature, gradient)};
+}
+
+}  // namespace
+
+std::vector<LevelBound> level_bounds(const geo::GridFrame& frame, const UndulationGrid& undulations) {
+    const int levels = frame.levels();
+    const EllipsoidDerivatives ellipsoid =
+        frame.is_polar() ? polar_derivatives(frame) : geographic_derivatives(frame);
     const UndulationDerivatives geoid = undulation_derivatives(undulations);
-    const double second = 1.001 * bend + geoid.second_m;
-    const double first = 1.001 * stretch + geoid.first_m;
+    const double second = ellipsoid.second_m + geoid.second_m;
+    const double first = ellipsoid.first_m + geoid.first_m;
 
     std::vector<LevelBound> bounds(static_cast<std::size_t>(2 * levels));
     double finer_radius = 0;

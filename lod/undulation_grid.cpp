@@ -69,12 +69,13 @@ double measured_error(const UndulationGrid& grid, const geo::Geoid& geoid, const
                                 [](double a, double b) { return std::max(a, b); });
 }
 
-/// The coarsest spacing worth a try: cells of 1/16 degree, a quarter of those of the geoid's own grid, so
-/// that the middles of cells do not step over what the geoid does between them.
+/// The coarsest spacing worth a try: cells of 1/16 degree (of latitude, in a polar grid), a quarter of those
+/// of the geoid's own grid, so that the middles of cells do not step over what the geoid does between them.
 int coarsest_shift(const geo::GridFrame& frame) {
-    constexpr double kWidest = 1.0 / 16;
+    constexpr double kMetresPerDegree = 111e3;
+    const double widest = (frame.is_polar() ? kMetresPerDegree : 1) / 16;
     int shift = 0;
-    while (shift < frame.levels() && std::ldexp(std::max(frame.step_x, frame.step_y), shift + 1) <= kWidest)
+    while (shift < frame.levels() && std::ldexp(std::max(frame.step_x, frame.step_y), shift + 1) <= widest)
         ++shift;
     return shift;
 }

@@ -30,10 +30,29 @@ glm::dmat4 crop(const lod::Camera& camera, const Window& window) {
     return matrix;
 }
 
-glm::dvec3 sun_in_enu(const geo::SunDirection& sun) {
+/// \param up_azimuth  of the direction whose part comes second
+glm::dvec3 sun_along(const geo::SunDirection& sun, geo::Degrees up_azimuth) {
     const double flat = std::cos(sun.elevation.radians());
-    return {flat * std::sin(sun.azimuth.radians()), flat * std::cos(sun.azimuth.radians()),
-            std::sin(sun.elevation.radians())};
+    const double azimuth = (sun.azimuth - up_azimuth).radians();
+    return {flat * std::sin(azimuth), flat * std::cos(azimuth), std::sin(sun.elevation.radians())};
+}
+
+/// Where a light of a given azimuth comes from, along the grid's row, up its column, and up. In a polar grid
+/// it comes from one side everywhere, as on a map, from the one that the azimuth means in the middle of the
+/// data: by each place's own north it would whirl around the pole.
+glm::dvec3 lamp_in_grid(const geo::SunDirection& sun, const geo::GridFrame& grid) {
+    const geo::LatLon middle = grid.lat_lon({0.5 * (grid.columns - 1), 0.5 * (grid.rows - 1)});
+    return sun_along(sun, grid.up_azimuth(middle.lon));
+}
+
+glm::dvec4 place_of(const lod::Terrain& terrain) {
+    if (const auto* polar = terrain.positions().polar()) {
+        const auto plane = polar->plane();
+        return {plane.x, plane.y, plane.x_row, plane.y_column};
+    }
+    const geo::GridFrame& grid = terrain.frame();
+    return {geo::Degrees{grid.west}.radians(), geo::Degrees{grid.north}.radians(),
+            geo::Degrees{grid.step_x}.radians(), geo::Degrees{grid.step_y}.radians()};
 }
 
 bool may_be_below(const geo::Geodetic& eye, const lod::Terrain& terrain, double exaggeration) {
@@ -59,16 +78,15 @@ FrameBlock frame_block(const lod::View& view, const lod::Terrain& terrain, const
     block.clip_from_offset = glm::mat4(crop(camera, window) * projection * glm::dmat4(view.to_eye_space()));
     block.eye_up = vec4(local.up(), camera.eye.h.m - base_m);
     block.grid = glm::dvec4(grid.columns - 1, grid.rows - 1, 1.0 / grid.columns, 1.0 / grid.rows);
-    block.place = glm::dvec4(geo::Degrees{grid.west}.radians(), geo::Degrees{grid.north}.radians(),
-                             geo::Degrees{grid.step_x}.radians(), geo::Degrees{grid.step_y}.radians());
+    block.place = place_of(terrain);
 
     const auto here = sun_at(sun, {camera.eye.lat, camera.eye.lon});
-    const glm::dvec3 to_sun = sun_in_enu(here);
+    const glm::dvec3 to_sun = sun_along(here, geo::Degrees{0});  // in east, north, up
     const double daylight = std::clamp((to_sun.z + 0.10) / 0.25, 0.0, 1.0);
     const bool fixed = sun.kind == SunSetting::Kind::time;
-    block.sun =
-        vec4(fixed ? to_sun.x * local.east() + to_sun.y * local.north() + to_sun.z * local.up() : to_sun,
-             daylight * daylight * (3 - 2 * daylight));
+    block.sun = vec4(fixed ? to_sun.x * local.east() + to_sun.y * local.north() + to_sun.z * local.up()
+                           : lamp_in_grid(here, grid),
+                     daylight * daylight * (3 - 2 * daylight));
     block.surface = glm::dvec4(exaggeration, terrain.levels(), 1 / kVisibilityM,
                                may_be_below(camera.eye, terrain, exaggeration) ? 1 : 0);
 

@@ -100,6 +100,8 @@ Result<GlName> Renderer::terrain_program(const Variant& variant) {
     if (variant.sun_fixed) defines += "#define SUN_FIXED\n";
     if (variant.sky) defines += "#define SKY\n";
     if (textures_.has_voids()) defines += "#define VOIDS\n";
+    if (const auto* polar = terrain_->positions().polar())
+        defines += fmt::format("#define POLE {:.1f}\n", polar->plane().pole);
     auto program =
         build_program({.name = "terrain",
                        .defines = std::move(defines),

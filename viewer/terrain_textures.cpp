@@ -56,7 +56,10 @@ HeightRange height_range(const Heights& heights) {
 
 void fill_row(const lod::Terrain& terrain, const HeightRange& range, int row, Texel* out) {
     const Heights& heights = terrain.heights();
-    const auto spacing = terrain.frame().spacing({0, static_cast<double>(row)});
+    const geo::PolarPositions* polar = terrain.positions().polar();
+    geo::GridFrame::Spacing spacing = terrain.frame().spacing({0, static_cast<double>(row)});
+    const bool round = terrain.frame().closes();  // beyond the last column is the second
+    const int last = heights.columns() - 1;
     const float none = std::numeric_limits<float>::quiet_NaN();
     const float* here = heights.row(row);
     const float* north = row > 0 ? heights.row(row - 1) : nullptr;
@@ -69,13 +72,19 @@ void fill_row(const lod::Terrain& terrain, const HeightRange& range, int row, Te
             out[column] = {0, 0, 0, 0};
             continue;
         }
-        const double east = slope(column > 0 ? here[column - 1] : none, H,
-                                  column + 1 < heights.columns() ? here[column + 1] : none, spacing.column_m);
-        const double up_north = slope(south != nullptr ? south[column] : none, H,
-                                      north != nullptr ? north[column] : none, spacing.row_m);
-        const double length = std::sqrt(1 + east * east + up_north * up_north);
-        out[column] = {snorm(-east / length), snorm(-up_north / length), snorm((H - middle) / half_range),
-                       32767};
+        if (polar != nullptr) spacing = polar->spacing(column, row);
+        const double along = slope(column > 0 ? here[column - 1]
+                                   : round    ? here[last - 1]
+                                              : none,
+                                   H,
+                                   column < last ? here[column + 1]
+                                   : round       ? here[1]
+                                                 : none,
+                                   spacing.column_m);
+        const double up = slope(south != nullptr ? south[column] : none, H,
+                                north != nullptr ? north[column] : none, spacing.row_m);
+        const double length = std::sqrt(1 + along * along + up * up);
+        out[column] = {snorm(-along / length), snorm(-up / length), snorm((H - middle) / half_range), 32767};
     }
 }
 

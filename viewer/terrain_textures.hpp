@@ -10,11 +10,14 @@ namespace relevo::viewer {
 /// surface with its true proportions, the height, and whether there is one; for each cell whether it may be
 /// drawn.
 ///
-/// Normals are central differences over the metric spacing of their row, one-sided beside voids and borders.
-/// All four channels are 16-bit and multiplied by the validity (0 or 1), so that mip levels and filters
-/// average valid posts alone. Eleven bytes a post with mip levels.
+/// Normals are central differences over the posts' distances on the ground, one-sided beside voids and
+/// borders. They are in the grid's own directions, along the row and up the column (in a geographic grid east
+/// and north): around a pole north turns, and cannot be filtered. All four channels are 16-bit and multiplied
+/// by the validity (0 or 1), so that mip levels and filters average valid posts alone. Eleven bytes a post
+/// with mip levels.
 struct TerrainTextures {
-    GlTexture posts;      ///< east and north of the unit normal; H from -1 (lowest) to 1 (highest); validity
+    GlTexture
+        posts;  ///< along row and up column of the unit normal; H from -1 (lowest) to 1 (highest); validity
     GlTexture cells;      ///< 8-bit: 0 where one of a cell's corners is void; absent where no post is
     double lowest_m = 0;  ///< H of the data; both 0 where all is void
     double highest_m = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "geo/ellipsoid.hpp"
@@ -48,15 +49,15 @@ struct GridPath::Interval {
 GridPath::GridPath(const geo::GridFrame& frame, geo::LatLon from, geo::LatLon to)
     : frame_(frame), path_(from, to) {
     constexpr double kMetresPerDegree = geo::wgs84::kSemiMinor * std::numbers::pi / 180;
-    same_place_m_ = HeightSampler::kPostTolerance * kMetresPerDegree * std::min(frame.step_x, frame.step_y);
+    same_place_m_ = HeightSampler::kPostTolerance * (frame.is_polar() ? 1 : kMetresPerDegree) *
+                    std::min(frame.step_x, frame.step_y);
+    if (frame.closes()) seam_columns_ = 0.5 * (360 / frame.step_x - (frame.columns - 1));
 }
 
 GridPath::Point GridPath::at(double distance_m, int turn) const {
     const auto here = path_.point(distance_m);
     Point point;
     point.place = here.place;
-    point.grid = {(here.place.lon.value + 360.0 * turn - frame_.west) / frame_.step_x,
-                  (frame_.north - here.place.lat.value) / frame_.step_y};
 
     const double sin_lat = std::sin(here.place.lat.radians());
     const double w2 = 1 - geo::wgs84::kEccentricity2 * sin_lat * sin_lat;
@@ -64,17 +65,29 @@ GridPath::Point GridPath::at(double distance_m, int turn) const {
     const double along = across * (1 - geo::wgs84::kEccentricity2) / w2;
     const double north = std::cos(here.azimuth.radians());
     const double east = std::sin(here.azimuth.radians());
+    point.curvature_per_m = north * north / along + east * east / across;
+
+    if (frame_.is_polar()) {
+        point.grid = frame_.grid_position(here.place);
+        const auto spacing = frame_.spacing(point.grid);
+        const double from_up = (here.azimuth - frame_.up_azimuth(here.place.lon)).radians();
+        point.columns_per_m = std::sin(from_up) / spacing.column_m;
+        point.rows_per_m = -std::cos(from_up) / spacing.row_m;
+        return point;
+    }
+    point.grid = {(here.place.lon.value + 360.0 * turn - frame_.west) / frame_.step_x,
+                  (frame_.north - here.place.lat.value) / frame_.step_y};
     point.columns_per_m =
         geo::Degrees::from_radians(east / (across * std::cos(here.place.lat.radians()))).value /
         frame_.step_x;
     point.rows_per_m = -geo::Degrees::from_radians(north / along).value / frame_.step_y;
-    point.curvature_per_m = north * north / along + east * east / across;
     return point;
 }
 
 /// The whole line, divided where it is nearest to a pole. The two parts end and begin on either side of that
 /// point: a line over the pole itself changes its longitude there by half a turn.
 std::vector<GridPath::Interval> GridPath::monotone_pieces() const {
+    if (frame_.is_polar()) return polar_pieces();
     const auto northward = [&](double s) {
         const double azimuth = path_.azimuth(s).value;
         return azimuth < 90 || azimuth > 270;
@@ -91,20 +104,57 @@ std::vector<GridPath::Interval> GridPath::monotone_pieces() const {
     return {{0, low}, {high, length_m()}};
 }
 
+/// The whole line, divided where its direction in the plane of a polar grid goes along a row or a column.
+std::vector<GridPath::Interval> GridPath::polar_pieces() const {
+    // Between places this near the line turns by little (but around the far pole, where there is no data), so
+    // that a turn past an axis cannot be missed.
+    constexpr double kLongestStep = 50e3;
+    const auto from_up = [&](double s) {
+        const auto here = path_.point(s);
+        return here.azimuth.value - frame_.up_azimuth(here.place.lon).value;
+    };
+    const auto quarter = [](double degrees) { return static_cast<int>(std::floor(degrees / 90)); };
+    const int steps = std::max(1, static_cast<int>(std::ceil(length_m() / kLongestStep)));
+    std::vector<Interval> pieces{{0, length_m()}};
+    double direction = geo::wrapped_360(geo::Degrees{from_up(0)}).value;
+    for (int i = 0; i < steps; ++i) {
+        double low = length_m() * i / steps;
+        const double end = length_m() * (i + 1) / steps;
+        const double next = direction + std::remainder(from_up(end) - direction, 360);
+        if (quarter(next) != quarter(direction)) {
+            const double axis = 90 * std::max(quarter(next), quarter(direction));
+            double high = end;
+            while (high - low > kRootTolerance) {
+                const double middle = low + 0.5 * (high - low);
+                if (middle <= low || middle >= high) break;
+                const double there = direction + std::remainder(from_up(middle) - direction, 360);
+                ((there < axis) == (direction < axis) ? low : high) = middle;
+            }
+            pieces.back().end = low;
+            pieces.push_back({high, length_m()});
+        }
+        direction = next;
+    }
+    return pieces;
+}
+
 /// Where the line is inside the data: an interval for each monotone piece and each turn in which the data may
 /// be met.
 std::vector<GridPath::Interval> GridPath::intervals_inside() const {
     constexpr double kSlack =
         0.5 * HeightSampler::kPostTolerance;  // the sampler's border, and room for rounding
-    const double last_column = frame_.columns - 1 + kSlack;
+    const double first_column = -kSlack - seam_columns_;
+    const double last_column = frame_.columns - 1 + kSlack + seam_columns_;
     const double last_row = frame_.rows - 1 + kSlack;
 
     std::vector<Interval> found;
     for (const Interval& piece : monotone_pieces()) {
-        const double turn_columns = 360 / frame_.step_x;
+        // A polar grid has no turns: there is one column for a place.
+        const double turn_columns =
+            frame_.is_polar() ? std::numeric_limits<double>::infinity() : 360 / frame_.step_x;
         const double column0 = at(piece.begin, 0).grid.column;
         const double column1 = at(piece.end, 0).grid.column;
-        const auto first_turn = std::ceil((-kSlack - std::max(column0, column1)) / turn_columns);
+        const auto first_turn = std::ceil((first_column - std::max(column0, column1)) / turn_columns);
         const auto last_turn = std::floor((last_column - std::min(column0, column1)) / turn_columns);
         for (int turn = static_cast<int>(first_turn); turn <= static_cast<int>(last_turn); ++turn) {
             Interval inside{piece.begin, piece.end, turn};
@@ -135,7 +185,7 @@ std::vector<GridPath::Interval> GridPath::intervals_inside() const {
                     const Point p = at(s, turn);
                     return Sample{p.grid.column, p.columns_per_m};
                 },
-                -kSlack, last_column);
+                first_column, last_column);
             if (inside.end >= inside.begin) found.push_back(inside);
         }
     }

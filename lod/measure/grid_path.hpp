@@ -12,7 +12,9 @@ namespace relevo::lod {
 ///
 /// Two facts make that certain: along a geodesic the longitude is monotone, and on either side of the one
 /// point nearest to a pole (a shortest line has at most one) the latitude is too. So every crossing is the
-/// only root of a monotone function.
+/// only root of a monotone function. In the plane of a polar grid a geodesic turns one way all along, as the
+/// scale grows with the distance from the pole alone, which stays on one side: between the places where it
+/// goes along a row or a column, both coordinates are monotone.
 class GridPath {
   public:
     GridPath(const geo::GridFrame& frame, geo::LatLon from, geo::LatLon to);
@@ -49,12 +51,16 @@ class GridPath {
   private:
     struct Interval;
     std::vector<Interval> monotone_pieces() const;
+    std::vector<Interval> polar_pieces() const;
     std::vector<Interval> intervals_inside() const;
     void add_crossings(const Interval& inside, bool of_columns, std::vector<double>& cuts) const;
 
     geo::GridFrame frame_;
     geo::GeodesicPath path_;
     double same_place_m_ = 0;
+    /// Of data all round the earth: how far a line may go beyond its first and last column, which are the
+    /// same place to half a step; negative where they overlap.
+    double seam_columns_ = 0;
 };
 
 }  // namespace relevo::lod

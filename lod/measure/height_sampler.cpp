@@ -1,5 +1,6 @@
 #include "lod/measure/height_sampler.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -19,7 +20,16 @@ std::pair<int, int> posts_around(double coordinate) {
 
 }  // namespace
 
+geo::GridPosition HeightSampler::on_seam(geo::GridPosition place) const {
+    const geo::GridFrame& frame = scene_.info().frame;
+    const double last = frame.columns - 1;
+    if (frame.closes() && place.column > -0.5 && place.column < last + 0.5)
+        place.column = std::clamp(place.column, 0.0, last);
+    return place;
+}
+
 bool HeightSampler::inside(geo::GridPosition place) const {
+    place = on_seam(place);
     const geo::GridFrame& frame = scene_.info().frame;
     return place.column >= -kPostTolerance && place.column <= frame.columns - 1 + kPostTolerance &&
            place.row >= -kPostTolerance && place.row <= frame.rows - 1 + kPostTolerance;
@@ -54,6 +64,7 @@ Result<std::optional<double>> HeightSampler::post(int column, int row) {
 }
 
 Result<std::optional<BilinearCell>> HeightSampler::cell(geo::GridPosition place) {
+    place = on_seam(place);
     if (!inside(place)) return std::optional<BilinearCell>{};
     const auto [west, east] = posts_around(place.column);
     const auto [north, south] = posts_around(place.row);

@@ -71,6 +71,10 @@ class HeightSampler {
         std::list<std::uint64_t>::iterator age;
     };
 
+    /// Between the last column and the first of data all round the earth, which are the same place to half a
+    /// step: the nearer of them.
+    geo::GridPosition on_seam(geo::GridPosition place) const;
+
     /// The block of a post, read if need be.
     Result<const Raster<float>*> block(int block_column, int block_row);
 

@@ -68,7 +68,8 @@ class HardViews : public testing::TestWithParam<Eye> {
             const double ground = inside ? test::above(terrain, eye.column, eye.row, 0).h.m : 0;
             camera.eye = {place.lat, place.lon, {ground + eye.above_m}};
         }
-        camera.heading = Degrees{eye.heading};
+        // "North" in the list is up the grid.
+        camera.heading = Degrees{eye.heading} + terrain.frame().up_azimuth(camera.eye.lon);
         camera.pitch = Degrees{eye.pitch};
         camera.roll = Degrees{eye.roll};
         camera.fov = Degrees{eye.fov};
@@ -113,6 +114,13 @@ TEST_P(HardViews, KeepTheErrorAcrossTheAntimeridian) {
     const double step = 1.0 / 3600;
     const auto frame = test::geographic_frame(129, 129, 45, 180 - 64 * step, step);
     expect_good_mesh(test::make_terrain(frame, test::make_heights(frame, test::mountains)), GetParam());
+}
+
+TEST_P(HardViews, KeepTheErrorAroundThePoles) {
+    for (const auto kind : {geo::FrameKind::ups_north, geo::FrameKind::ups_south}) {
+        const auto frame = test::polar_frame(kind, 129, 129, 30);
+        expect_good_mesh(test::make_terrain(frame, test::make_heights(frame, test::mountains)), GetParam());
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Views, HardViews, testing::ValuesIn(kEyes),

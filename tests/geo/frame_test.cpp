@@ -56,6 +56,21 @@ TEST(GridFrame, WholeEarthHasBothItsEdges) {
     EXPECT_EQ(f.grid_position({Degrees{0}, Degrees{180}}).column, 720);
 }
 
+TEST(GridFrame, ClosesWhereItsLastColumnIsItsFirstToHalfAStep) {
+    EXPECT_TRUE(frame(-180, 90, 0.5, 721, 361).closes());
+    EXPECT_TRUE(frame(0, 10, 0.7, 515, 20).closes());  // 359.8 degrees
+    EXPECT_TRUE(frame(0, 10, 0.7, 516, 20).closes() == false);
+    EXPECT_FALSE(frame(-180, 90, 0.5, 720, 361).closes());  // a whole step is missing
+    EXPECT_FALSE(frame(-180, 90, 0.5, 722, 361).closes());
+    EXPECT_FALSE(frame(-180, 90, 1, 1, 1).closes());
+    // What is between the ends is at one of them.
+    const GridFrame f = frame(0, 10, 0.7, 515, 20);
+    EXPECT_EQ(f.grid_position({Degrees{0}, Degrees{359.85}}).column, 514);
+    EXPECT_EQ(f.grid_position({Degrees{0}, Degrees{359.95}}).column, 0);
+    EXPECT_EQ(f.grid_position({Degrees{0}, Degrees{-0.05}}).column, 0);
+    EXPECT_NEAR(f.grid_position({Degrees{0}, Degrees{359.7}}).column, 513.857, 1e-3);
+}
+
 TEST(GridFrame, PolesAreLatitudesInSpiteOfRounding) {
     const GridFrame f = frame(-180, 90, 1.0 / 3, 1081, 541);
     EXPECT_EQ(f.lat_lon({0, 0}).lat.value, 90);

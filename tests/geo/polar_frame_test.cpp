@@ -234,6 +234,18 @@ TEST(PolarPositions, AgreeWithGeographicLib) {
     RecordProperty("worst_nm", std::to_string(worst * 1e9));
 }
 
+TEST(PolarPositions, SpacingIsTheFramesOwn) {
+    for (const GridFrame& frame : frames()) {
+        const PostPositions posts(frame);
+        for (const int column : {0, 100, 177}) {
+            const auto fast = posts.polar()->spacing(column, 1);
+            const auto exact = frame.spacing({static_cast<double>(column), 1});
+            EXPECT_NEAR(fast.column_m / exact.column_m, 1, 1e-13);
+            EXPECT_NEAR(fast.row_m / exact.row_m, 1, 1e-13);
+        }
+    }
+}
+
 TEST(PolarPositions, ThePoleIsOnTheAxis) {
     const PostPositions north(polar(FrameKind::ups_north, 2e6 - 1000, 2e6 + 1000, 10, 201, 201));
     const PostPositions south(polar(FrameKind::ups_south, 2e6 - 1000, 2e6 + 1000, 10, 201, 201));

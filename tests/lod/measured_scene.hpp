@@ -51,11 +51,24 @@ class MeasuredScene {
     /// voids and outside.
     long double brute_height(geo::LatLon place) const {
         const geo::GridFrame& f = frame();
+        if (f.is_polar()) return brute_height(polar_position(place));
         const long double row = (static_cast<long double>(f.north) - place.lat.value) / f.step_y;
         long double column = (static_cast<long double>(place.lon.value) - f.west) / f.step_x;
         const long double turn = 360.0L / f.step_x;
         while (column < -1e-6L) column += turn;
         while (column > f.columns - 1 + 1e-6L && column - turn >= -1e-6L) column -= turn;
+        return brute_height({column, row});
+    }
+
+  private:
+    struct Position {
+        long double column;
+        long double row;
+    };
+
+    long double brute_height(Position at) const {
+        const geo::GridFrame& f = frame();
+        const auto [column, row] = at;
         if (column < -1e-6L || row < -1e-6L || column > f.columns - 1 + 1e-6L || row > f.rows - 1 + 1e-6L)
             return std::nanl("");
         const int i = std::clamp(static_cast<int>(column), 0, std::max(f.columns - 2, 0));
@@ -70,7 +83,24 @@ class MeasuredScene {
                u * v * static_cast<long double>(heights_.at(east, south));
     }
 
-  private:
+    /// Snyder (1987), Map projections: a working manual, 15-9, 21-33 and 21-30.
+    Position polar_position(geo::LatLon place) const {
+        const geo::GridFrame& f = frame();
+        const bool north = f.kind == geo::FrameKind::ups_north;
+        const long double pi = std::acos(-1.0L);
+        const long double flattening = 1 / 298.257223563L;
+        const long double e = std::sqrt(flattening * (2 - flattening));
+        const long double from_pole =
+            90 - static_cast<long double>(north ? place.lat.value : -place.lat.value);
+        const long double s = e * std::cos(from_pole * pi / 180);
+        const long double t = std::tan(from_pole / 360 * pi) / std::pow((1 - s) / (1 + s), e / 2);
+        const long double rho =
+            2 * 6378137.0L * 0.994L * t / std::sqrt(std::pow(1 + e, 1 + e) * std::pow(1 - e, 1 - e));
+        const long double lon = static_cast<long double>(place.lon.value) * pi / 180;
+        const long double northing = 2e6L + (north ? -1 : 1) * rho * std::cos(lon);
+        return {(2e6L + rho * std::sin(lon) - f.west) / f.step_x, (f.north - northing) / f.step_y};
+    }
+
     SceneFolder folder_;
     lod::Raster<float> heights_;
     std::unique_ptr<lod::Scene> scene_;

@@ -188,33 +188,45 @@ TEST(Metrics, OneSpikeIsEveryAncestorsError) {
 }
 
 // What an exaggeration adds: the bounds of the bare surface must hold for every diamond of the level.
+void expect_level_bounds_hold(const geo::GridFrame& frame) {
+    const Raster<float> flat = test::make_heights(frame, [](int, int) { return 0.0; });
+    const auto geoid = geo::Geoid::egm96();
+    ASSERT_TRUE(geoid) << geoid.error().message;
+    const UndulationGrid undulations(*geoid, frame);
+    const MetricRasters metrics = build_metrics(frame, undulations, flat);
+    const auto bounds = level_bounds(frame, undulations);
+    for (int level = 0; level < 2 * frame.levels(); ++level) {
+        const LevelBound& bound = bounds[static_cast<std::size_t>(level)];
+        double sag = 0;
+        double radius = 0;
+        for (int row = 0; row < frame.padded_side(); ++row) {
+            for_each_vertex_in_row(frame.levels(), level, row, [&](const GridPoint& v) {
+                sag = std::max(sag, static_cast<double>(decode(metrics.bounded.at(v.column, v.row))));
+                radius = std::max(radius, static_cast<double>(decode(metrics.radius.at(v.column, v.row))));
+            });
+        }
+        EXPECT_GE(bound.sag_m * kCodeStep, sag) << "level " << level;
+        // Stored spheres are rounded up at every level, each smaller than the next by the root of two.
+        EXPECT_GE(bound.radius_m * (1 + 3.42 * (kCodeStep - 1)) + 1e-4, radius) << "level " << level;
+        EXPECT_LE(bound.sag_m, 5 * sag + 1e-3) << "not wasteful, level " << level;
+        EXPECT_LE(bound.radius_m, 2 * radius) << "not wasteful, level " << level;
+    }
+}
+
 TEST(LevelBounds, HoldForEveryDiamond) {
     for (const double north : {0.5, 45.0, 80.0}) {
-        for (const double step : {1.0 / 3600, 1.0 / 12}) {
-            const auto frame = test::geographic_frame(65, 65, north, 10, step);
-            const Raster<float> flat = test::make_heights(frame, [](int, int) { return 0.0; });
-            const auto geoid = geo::Geoid::egm96();
-            ASSERT_TRUE(geoid) << geoid.error().message;
-            const UndulationGrid undulations(*geoid, frame);
-            const MetricRasters metrics = build_metrics(frame, undulations, flat);
-            const auto bounds = level_bounds(frame, undulations);
-            for (int level = 0; level < 2 * frame.levels(); ++level) {
-                const LevelBound& bound = bounds[static_cast<std::size_t>(level)];
-                double sag = 0;
-                double radius = 0;
-                for (int row = 0; row < frame.padded_side(); ++row) {
-                    for_each_vertex_in_row(frame.levels(), level, row, [&](const GridPoint& v) {
-                        sag = std::max(sag, static_cast<double>(decode(metrics.bounded.at(v.column, v.row))));
-                        radius =
-                            std::max(radius, static_cast<double>(decode(metrics.radius.at(v.column, v.row))));
-                    });
-                }
-                EXPECT_GE(bound.sag_m * kCodeStep, sag) << "level " << level;
-                EXPECT_GE(bound.radius_m * kCodeStep + 1e-4, radius) << "level " << level;
-                EXPECT_LE(bound.sag_m, 5 * sag + 1e-3) << "not wasteful, level " << level;
-                EXPECT_LE(bound.radius_m, 2 * radius) << "not wasteful, level " << level;
-            }
+        for (const double step : {1.0 / 3600, 1.0 / 12})
+            expect_level_bounds_hold(test::geographic_frame(65, 65, north, 10, step));
+    }
+}
+
+TEST(LevelBounds, HoldForEveryDiamondAroundThePoles) {
+    for (const geo::FrameKind kind : {geo::FrameKind::ups_north, geo::FrameKind::ups_south}) {
+        for (const double step : {30.0, 9000.0}) {
+            expect_level_bounds_hold(test::polar_frame(kind, 65, 65, step));             // the pole inside
+            expect_level_bounds_hold(test::polar_frame(kind, 65, 65, step, 1e6, -9e5));  // 78 degrees
         }
+        expect_level_bounds_hold(test::polar_frame(kind, 65, 65, 150e3));  // to 45 degrees
     }
 }
 

@@ -24,6 +24,18 @@ inline geo::GridFrame geographic_frame(int columns, int rows, double north = 36,
     return frame;
 }
 
+/// A polar frame whose middle is at (x, y) metres from the pole in UPS.
+inline geo::GridFrame polar_frame(geo::FrameKind kind, int columns, int rows, double step, double x = 0,
+                                  double y = 0) {
+    return {kind,
+            geo::kUpsFalseOrigin + x - 0.5 * (columns - 1) * step,
+            geo::kUpsFalseOrigin + y + 0.5 * (rows - 1) * step,
+            step,
+            step,
+            columns,
+            rows};
+}
+
 /// Heights of a frame from a function of column and row.
 template <class Height>
 lod::Raster<float> make_heights(const geo::GridFrame& frame, Height height) {

@@ -23,6 +23,12 @@ geo::GridFrame frame_of(double west, double north, double step, int columns, int
     return frame;
 }
 
+/// The pole in the middle.
+geo::GridFrame test_polar(geo::FrameKind kind, double step, int side) {
+    const double half = 0.5 * (side - 1) * step;
+    return {kind, geo::kUpsFalseOrigin - half, geo::kUpsFalseOrigin + half, step, step, side, side};
+}
+
 class UndulationGrids : public testing::TestWithParam<geo::GridFrame> {};
 
 TEST_P(UndulationGrids, AgreeWithTheGeoid) {
@@ -57,7 +63,10 @@ INSTANTIATE_TEST_SUITE_P(
                     frame_of(177, -16, 1.0 / 120, 900, 500),     // across the antimeridian
                     frame_of(-180, 90, 1.0 / 12, 500, 40),       // at the north pole
                     frame_of(10, -89, 1.0 / 600, 100, 601),      // at the south pole, padding beyond it
-                    frame_of(3, 54, 1.0 / 120, 720, 480), frame_of(5, 5, 1e-5, 3, 3)));
+                    test_polar(geo::FrameKind::ups_north, 30, 1001),
+                    test_polar(geo::FrameKind::ups_south, 30, 1001),
+                    test_polar(geo::FrameKind::ups_north, 5000, 600), frame_of(3, 54, 1.0 / 120, 720, 480),
+                    frame_of(5, 5, 1e-5, 3, 3)));
 
 TEST(UndulationGrid, EveryPostIsANodeWherePostsAreFarApart) {
     const auto geoid = geo::Geoid::egm96();

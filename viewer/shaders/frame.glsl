@@ -3,8 +3,10 @@ layout(std140, binding = 0) uniform Frame {
     mat4 clip_from_offset;  // offsets from the eye to clip space
     vec4 eye_up;            // the ellipsoid's normal at the eye; w: height of the eye above the base surface
     vec4 grid;              // last column, last row, 1 / columns, 1 / rows
-    vec4 place;             // west, north, step along columns, step along rows; radians
-    vec4 sun;               // east, north, up where SUN_FIXED is not set, else ECEF; w: daylight at the eye, 0 to 1
+    vec4 place;             // west, north, step along columns, step along rows; radians. With POLE: x and y of the first
+                            // post in the plane of PolarPositions, growth of x with a row, of y with a column
+    vec4 sun;               // along the grid's rows, up its columns, and up (east, north, up in a geographic one) where
+                            // SUN_FIXED is not set, else ECEF; w: daylight at the eye, 0 to 1
     vec4 surface;           // exaggeration, levels, haze per metre at the sea, 1 where the eye may be below the ground
     vec4 ray;               // through the middle of the picture, then its change to the right edge and to the upper edge
     vec4 ray_right;

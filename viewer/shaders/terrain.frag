@@ -1,4 +1,4 @@
-layout(binding = 0) uniform sampler2D posts;   // east and north of the normal, H from -1 to 1, validity; all times it
+layout(binding = 0) uniform sampler2D posts;   // normal along row and up column, H from -1 to 1, validity; all times it
 layout(binding = 1) uniform usampler2D cells;  // 0 where a cell has a void corner
 layout(binding = 2) uniform sampler2D ramp;    // the layer's colours
 

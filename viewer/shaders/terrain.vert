@@ -11,7 +11,7 @@ out Surface {
     float haze;
     flat float level;
 #ifdef SUN_FIXED
-    vec3 sun;  // in local east, north, up: it turns as the ground curves
+    vec3 sun;  // along the grid's row, up its column, and up: it turns as the ground curves
 #endif
 }
 surface;
@@ -39,7 +39,16 @@ void main() {
     float rise = dot(offset, frame.eye_up.xyz);
     float sinking = (way * way - rise * rise) / (2.0 * 6371000.0);
     surface.haze = haze(way, frame.eye_up.w, frame.eye_up.w + rise + sinking);
-#ifdef SUN_FIXED
+#if defined(SUN_FIXED) && defined(POLE)
+    // The tangents of a sphere along x and y of its stereographic projection; that latitudes are conformal here turns
+    // them by 0.2 degrees at most.
+    vec2 p = frame.place.xy + at.yx * frame.place.zw;
+    float q = 2.0 / (1.0 + dot(p, p));
+    vec3 along_x = vec3(1.0 - q * p.x * p.x, -q * p.x * p.y, -POLE * q * p.x);
+    vec3 along_y = vec3(-q * p.x * p.y, 1.0 - q * p.y * p.y, -POLE * q * p.y);
+    vec3 up = vec3(q * p, POLE * (q - 1.0));
+    surface.sun = vec3(dot(frame.sun.xyz, along_y), -POLE * dot(frame.sun.xyz, along_x), dot(frame.sun.xyz, up));
+#elif defined(SUN_FIXED)
     float lat = frame.place.y - at.y * frame.place.w;
     float lon = frame.place.x + at.x * frame.place.z;
     vec3 east = vec3(-sin(lon), cos(lon), 0.0);
