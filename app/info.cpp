@@ -19,17 +19,14 @@ struct Settings {
 
 /// What follows from a scene's description.
 struct Derived {
-    geo::LatLon north_west;
-    geo::LatLon south_east;  // lon continuous: beyond 180 where the scene crosses the antimeridian
+    geo::GridFrame::Extent extent;
     geo::GridFrame::Spacing spacing;
     std::uint64_t posts = 0;
     std::uint64_t height_bytes = 0;
     std::uint64_t metric_bytes = 0;
 
     explicit Derived(const lod::SceneInfo& info)
-        : north_west(info.frame.lat_lon({0, 0})),
-          south_east(info.frame.lat_lon(
-              {static_cast<double>(info.frame.columns - 1), static_cast<double>(info.frame.rows - 1)})),
+        : extent(info.frame.extent()),
           spacing(info.frame.spacing({(info.frame.columns - 1) / 2.0, (info.frame.rows - 1) / 2.0})),
           posts(info.valid_posts + info.void_posts),
           height_bytes(sum(info.heights)),
@@ -51,10 +48,10 @@ void print_json(const lod::SceneInfo& info, const Derived& derived) {
     for (const char* only_on_disk : {"heights", "metrics", "undulation", "block_side", "vertical_name"}) {
         json.erase(only_on_disk);
     }
-    json["extent"] = {{"west", derived.north_west.lon.value},
-                      {"south", derived.south_east.lat.value},
-                      {"east", derived.south_east.lon.value},
-                      {"north", derived.north_west.lat.value}};
+    json["extent"] = {{"west", derived.extent.west},
+                      {"south", derived.extent.south},
+                      {"east", derived.extent.east},
+                      {"north", derived.extent.north}};
     const geo::GridFrame& frame = info.frame;
     json["n"] = frame.levels();
     json["columns"] = frame.columns;
@@ -79,8 +76,13 @@ std::string degrees(double value, char positive, char negative) {
     return fmt::format("{:.7f} {}", value < 0 ? -value : value, value < 0 ? negative : positive);
 }
 
-std::string longitude(geo::Degrees lon) {
-    return degrees(geo::wrapped_180(lon).value, 'E', 'W');
+std::string longitude(double lon) {
+    return degrees(geo::wrapped_180(geo::Degrees{lon}).value, 'E', 'W');
+}
+
+std::string longitudes(const geo::GridFrame::Extent& extent) {
+    if (extent.east - extent.west >= 360) return "all longitudes";
+    return fmt::format("{} to {}", longitude(extent.west), longitude(extent.east));
 }
 
 std::string mebibytes(std::uint64_t bytes) {
@@ -116,9 +118,8 @@ void print_resampling(const lod::SceneInfo& info) {
 void print_text(const std::string& name, const lod::SceneInfo& info, const Derived& derived) {
     const geo::GridFrame& frame = info.frame;
     fmt::print("scene        {}, format version {}\n", name, lod::SceneInfo::kFormatVersion);
-    fmt::print("extent       {} to {}, {} to {}\n", degrees(derived.south_east.lat.value, 'N', 'S'),
-               degrees(derived.north_west.lat.value, 'N', 'S'), longitude(derived.north_west.lon),
-               longitude(derived.south_east.lon));
+    fmt::print("extent       {} to {}, {}\n", degrees(derived.extent.south, 'N', 'S'),
+               degrees(derived.extent.north, 'N', 'S'), longitudes(derived.extent));
     fmt::print("grid         {} x {} posts, {} (WGS 84), n = {}\n", frame.columns, frame.rows,
                lod::to_string(frame.kind), frame.levels());
     fmt::print("resolution   {:.10g} x {:.10g} {}, {:.2f} x {:.2f} m in the middle\n", frame.step_x,

@@ -18,6 +18,43 @@ class Info : public testing::Test {
     SceneParts parts_ = made_up_scene(600, 40);
 };
 
+TEST_F(Info, ExtentOfAPolarSceneIsInDegrees) {
+    // 100 m posts around the south pole, and beside it across the antimeridian (which runs down in UPS
+    // South).
+    SceneParts parts = made_up_scene(601, 401);
+    parts.info.frame = {geo::FrameKind::ups_south, 1970e3, 2020e3, 100, 100, 601, 401};
+    for (const bool inside : {true, false}) {
+        if (!inside) parts.info.frame.north = 1500e3;
+        ASSERT_TRUE(write_scene(parts, path_, true));
+        const auto run = relevo("info --json " + quoted());
+        ASSERT_EQ(run.status, 0) << run.err;
+        const auto json = nlohmann::json::parse(run.out, nullptr, false);
+        EXPECT_EQ(json["frame"]["kind"], "ups_south");
+        EXPECT_EQ(json["step_unit"], "metre");
+        EXPECT_EQ(json["step_x"], 100);
+        EXPECT_NEAR(json["step_x_m"], 100 / 0.994, 0.2);
+        const auto corner = parts.info.frame.lat_lon({0, 400});
+        const auto& extent = json["extent"];
+        const auto text = relevo("info " + quoted()).out;
+        if (inside) {
+            EXPECT_EQ(extent["south"], -90);
+            EXPECT_NEAR(extent["north"], -90 + 36.056 / 0.994 / 111.694, 1e-5);  // by the meridian's degree
+            EXPECT_EQ(extent["west"], -180);
+            EXPECT_EQ(extent["east"], 180);
+            EXPECT_NE(text.find("90.0000000 S to 89.675"), std::string::npos) << text;
+            EXPECT_NE(text.find("all longitudes"), std::string::npos) << text;
+        } else {
+            EXPECT_NEAR(extent["north"], corner.lat.value, 1e-12);
+            EXPECT_LT(extent["west"], 180);
+            EXPECT_GT(extent["east"], 180);
+            EXPECT_NEAR(extent["west"].get<double>() + extent["east"].get<double>(), 360, 1e-9);
+            EXPECT_NE(text.find(" E to "), std::string::npos) << text;
+            EXPECT_NE(text.find(" W\n"), std::string::npos) << text;
+        }
+        EXPECT_NE(text.find("100 x 100 metre"), std::string::npos) << text;
+    }
+}
+
 TEST_F(Info, JsonHasTheKeysOfTheContract) {
     const auto run = relevo("info --json " + quoted());
     ASSERT_EQ(run.status, 0) << run.err;
