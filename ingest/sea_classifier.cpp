@@ -8,12 +8,24 @@ namespace relevo::ingest {
 
 using Request = lod::SeaInfo::Request;
 
+namespace {
+
+SeaRequest request_of(Request kind) {
+    SeaRequest request;
+    request.kind = kind;
+    return request;
+}
+
+}  // namespace
+
 SeaRequest sea_request_from(const std::string& word) {
     if (word.empty()) return {};
-    if (word == "auto") return {Request::automatic, {}, {}};
-    if (word == "none") return {Request::none, {}, {}};
-    if (word == "depths") return {Request::depths, {}, {}};
-    return {Request::mask, word, {}};
+    if (word == "auto") return request_of(Request::automatic);
+    if (word == "none") return request_of(Request::none);
+    if (word == "depths") return request_of(Request::depths);
+    SeaRequest request = request_of(Request::mask);
+    request.mask_file = word;
+    return request;
 }
 
 SeaClassifier::SeaClassifier(const geo::GridFrame& frame, const SeaRequest& request, int block_side)
@@ -41,7 +53,7 @@ Result<SeaClassifier> SeaClassifier::create(const geo::GridFrame& frame, const S
 }
 
 bool SeaClassifier::needs_blocks() const {
-    return request_.kind != Request::mask && request_.kind != Request::none;
+    return request_.kind != Request::mask && request_.kind != Request::none && request_.zero_is_sea_level;
 }
 
 Window SeaClassifier::window(Block block) const {
@@ -183,6 +195,7 @@ const lod::SeaInfo& SeaClassifier::decide() {
         for (std::uint32_t& area : block) area = number[area];
     }
     rule_ = SeaRule{request_.kind, whole, contacts_};
+    if (!request_.zero_is_sea_level) rule_.say_sea_level_is_elsewhere();
     if (mask_) rule_.set_mask(mask_->name());
     areas_ = std::move(whole);
     parent_ = {};
@@ -234,7 +247,7 @@ Result<std::uint64_t> SeaClassifier::mark_block(int block_column, int block_row,
                                                 lod::Raster<lod::PostMark>& marks) const {
     assert(decided_);
     const Block block{block_column, block_row};
-    if (request_.kind == Request::none) return std::uint64_t{0};
+    if (!mask_ && !needs_blocks()) return std::uint64_t{0};
     lod::Raster<std::uint8_t> is_sea(marks.columns(), marks.rows());
     if (mask_) {
         if (auto done = mask_->read(window(block), is_sea); !done) return done.error();

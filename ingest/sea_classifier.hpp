@@ -24,6 +24,9 @@ struct SeaRequest {
     lod::SeaInfo::Request kind = lod::SeaInfo::Request::unasked;
     std::string mask_file;  ///< of a mask: polygons or a raster
     Trust trust;            ///< of the mask's file
+    /// Heights are above a datum near the level of the sea. Above the ellipsoid they are not: the sea is then
+    /// at tens of metres, and only a mask finds it.
+    bool zero_is_sea_level = true;
 };
 /// From the command line's word: "auto", "none", "depths", or else a file's name.
 SeaRequest sea_request_from(const std::string& word);
@@ -37,7 +40,7 @@ class SeaClassifier {
     static Result<SeaClassifier> create(const geo::GridFrame& frame, const SeaRequest& request,
                                         int block_side = lod::SceneInfo::kBlockSide);
 
-    /// Without it nothing has to be added: the mask decides, or there is no sea.
+    /// Without it nothing has to be added: the mask decides, or no sea is looked for.
     bool needs_blocks() const;
 
     /// The first pass: each block once, in any order, from any thread (in rows least is held).
@@ -52,7 +55,7 @@ class SeaClassifier {
     /// stay as they are; a void post that is sea is marked as modelled and has no height yet: give the block
     /// to model_sea_bed (sea_bed.hpp).
     /// \param marks  as they were in the first pass
-    /// \return the number of void posts that became sea; an error of reading the mask
+    /// \return the number of void posts that became sea; or an error of reading the mask
     Result<std::uint64_t> mark_block(int block_column, int block_row, const lod::Raster<float>& heights,
                                      lod::Raster<lod::PostMark>& marks) const;
 

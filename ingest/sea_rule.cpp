@@ -166,6 +166,13 @@ void SeaRule::decide_voids(const std::vector<SeaArea>& areas, const std::vector<
     }
 }
 
+void SeaRule::say_sea_level_is_elsewhere() {
+    if (searches(info_.request))
+        info_.text =
+            "heights are above the ellipsoid, where the sea is not at 0 m: none was looked for. --sea FILE "
+            "says where it is";
+}
+
 void SeaRule::describe() {
     switch (info_.rule) {
         case Rule::none:

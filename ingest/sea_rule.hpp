@@ -31,6 +31,7 @@ class SeaRule {
     bool void_is_sea(const SeaArea& area, bool touches_large_sea) const;
 
     const lod::SeaInfo& info() const { return info_; }
+    void say_sea_level_is_elsewhere();
     void set_mask(const std::string& name) { info_.mask = name; }
 
   private:

@@ -30,7 +30,7 @@ const std::map<char, float> kLegend{{'.', 0}, {'-', -1}, {'=', -4},   {'v', -430
 
 Classified classified(const Drawing& drawing, const std::map<char, float>& legend = kLegend,
                       SeaInfo::Request request = SeaInfo::Request::unasked) {
-    return classify(drawn(drawing, legend, kScale), {request, {}, {}});
+    return classify(drawn(drawing, legend, kScale), test::asking(request));
 }
 
 Drawing classes(const Drawing& drawing, const std::map<char, float>& legend = kLegend) {
@@ -195,7 +195,7 @@ Dem read(const std::filesystem::path& file, std::optional<float> none = {}) {
 }
 
 Classified classified(const Dem& dem, SeaInfo::Request request = SeaInfo::Request::unasked) {
-    return classify(dem.heights, {request, {}, {}}, 512, false, dem.frame);
+    return classify(dem.heights, test::asking(request), 512, false, dem.frame);
 }
 
 std::uint64_t below_zero(const Classified& scene, lod::PostClass post_class) {

@@ -94,6 +94,12 @@ inline geo::GridFrame frame_for(const Heights& heights, double step = 1.0 / 1200
     return frame;
 }
 
+inline ingest::SeaRequest asking(lod::SeaInfo::Request kind) {
+    ingest::SeaRequest request;
+    request.kind = kind;
+    return request;
+}
+
 /// Classifies a scene block by block, in the order of rows or backwards, as an import does.
 inline Classified classify(const Heights& heights, const ingest::SeaRequest& request = {}, int side = 512,
                            bool backwards = false, geo::GridFrame frame = {}) {

@@ -231,7 +231,7 @@ TEST(SeaMask, DecidesAlone) {
     const auto frame = grid(10, 50, 0.01, 60, 40);
     const auto file = write_polygons(folder / "sea.geojson", "GeoJSON", "EPSG:4326",
                                      {{{9, 51}, {10.295, 51}, {10.295, 49}, {9, 49}}});
-    const auto scene = test::classify(heights, {lod::SeaInfo::Request::mask, file, {}}, 16, false, frame);
+    const auto scene = test::classify(heights, sea_request_from(file), 16, false, frame);
     EXPECT_EQ(scene.info.rule, lod::SeaInfo::Rule::mask);
     EXPECT_EQ(scene.info.mask, "sea.geojson");
     for (int r = 0; r < 40; ++r) {

@@ -132,7 +132,7 @@ TEST(SeaClassifier, FindsTheSameAroundVoids) {
         const Heights heights = random_ground(seed, 90, 70, false, 0.5);
         const auto expected = flooded(heights, true);
         for (const int side : {7, 32, 512}) {
-            const Classified scene = classify(heights, {SeaInfo::Request::depths, {}, {}}, side);
+            const Classified scene = classify(heights, test::asking(SeaInfo::Request::depths), side);
             for (std::size_t i = 0; i < expected.size(); ++i) {
                 if (std::isnan(heights.samples()[i])) continue;
                 ASSERT_EQ(scene.marks.samples()[i].post_class() == PostClass::sea, expected[i])
@@ -213,6 +213,31 @@ TEST(SeaBed, FallsFromTheShoreByOneInAHundred) {
         EXPECT_EQ(scene.heights.at(c, 4), std::round(scene.heights.at(c, 4)));
     }
     EXPECT_EQ(scene.heights.at(299, 4), -200);
+}
+
+/// Where the halo ends before 200 m are reached the bed goes on level: no step is seen.
+TEST(SeaBed, HasNoStepWhereNothingNearHasData) {
+    Heights heights(200, 70, std::nanf(""));
+    for (int r = 0; r < 70; ++r) heights.at(0, r) = r % 3 == 0 ? 0.0F : 2.0F;
+    const auto frame = test::frame_for(heights, 1.0 / 3600);  // posts of 19 m by 31 m
+    const Classified scene = classify(heights, {}, 50, false, frame);
+    ASSERT_EQ(scene.voids(), 0U) << scene.info.text;
+    for (int c = 1; c < 200; ++c) {
+        EXPECT_LE(scene.heights.at(c, 40), 0);
+        EXPECT_LE(std::abs(scene.heights.at(c, 40) - scene.heights.at(c - 1, 40)), c == 1 ? 3.0F : 1.0F) << c;
+    }
+    const double reach = kSeaBedHalo * frame.spacing({199, 40}).column_m;
+    EXPECT_EQ(scene.heights.at(199, 40), -std::round(0.01 * reach));
+}
+
+TEST(SeaClassifier, DoesNotLookForSeaLevelAboveTheEllipsoid) {
+    const Heights heights(30, 30, 0);
+    auto request = test::asking(SeaInfo::Request::unasked);
+    request.zero_is_sea_level = false;
+    const Classified scene = classify(heights, request);
+    EXPECT_EQ(scene.sea(), 0U);
+    EXPECT_EQ(scene.info.rule, SeaInfo::Rule::nothing);
+    EXPECT_NE(scene.info.text.find("--sea FILE"), std::string::npos);
 }
 
 TEST(SeaInfo, ComesBackFromJson) {
