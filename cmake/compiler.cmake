@@ -21,8 +21,13 @@ endif()
 if(RELEVO_SANITIZE)
   add_compile_options(-fsanitize=${RELEVO_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${RELEVO_SANITIZE})
-  # GCC 12 warns wrongly about initialisation in code that the sanitizers have instrumented.
-  add_compile_options(-Wno-maybe-uninitialized)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # GCC 12 warns wrongly about initialisation in code that the sanitizers have instrumented.
+    add_compile_options(-Wno-maybe-uninitialized)
+  endif()
+endif()
+if(RELEVO_FUZZ)
+  add_compile_options(-fsanitize=fuzzer-no-link)
 endif()
 
 # relevo_library(NAME SOURCES... ) makes target relevo_NAME with the alias relevo::NAME.
