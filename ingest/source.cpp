@@ -18,9 +18,20 @@ namespace {
 
 constexpr double kVoid = std::numeric_limits<double>::quiet_NaN();
 
-bool is_picture(GDALColorInterp interpretation) {
-    return interpretation == GCI_PaletteIndex ||
-           (interpretation >= GCI_RedBand && interpretation <= GCI_BlueBand);
+/// A palette whose colours are the greys 0, 1, 2, ...: BMP has no other way to say "grey".
+bool is_grey_ramp(const GDALColorTable* palette) {
+    if (palette == nullptr) return false;
+    for (int i = 0; i < palette->GetColorEntryCount(); ++i) {
+        const GDALColorEntry& colour = *palette->GetColorEntry(i);
+        if (colour.c1 != i || colour.c2 != i || colour.c3 != i) return false;
+    }
+    return true;
+}
+
+bool is_picture(GDALRasterBand& band) {
+    const auto interpretation = band.GetColorInterpretation();
+    if (interpretation == GCI_PaletteIndex) return !is_grey_ramp(band.GetColorTable());
+    return interpretation >= GCI_RedBand && interpretation <= GCI_BlueBand;
 }
 
 }  // namespace
@@ -77,9 +88,9 @@ Result<void> Source::choose_band(const std::optional<int>& wanted) {
     std::vector<int> candidates;
     bool picture = false;
     for (int i = 1; i <= count; ++i) {
-        const auto interpretation = dataset.GetRasterBand(i)->GetColorInterpretation();
-        picture = picture || is_picture(interpretation);
-        if (interpretation != GCI_AlphaBand) candidates.push_back(i);
+        GDALRasterBand& band = *dataset.GetRasterBand(i);
+        picture = picture || is_picture(band);
+        if (band.GetColorInterpretation() != GCI_AlphaBand) candidates.push_back(i);
     }
     if (wanted) {
         if (*wanted < 1 || *wanted > count)

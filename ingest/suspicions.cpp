@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "ingest/operation.hpp"
+
 namespace relevo::ingest {
 namespace {
 
@@ -85,6 +87,15 @@ void note_undeclared_voids(const HeightRule& rule, const std::vector<double>& he
         notes.push_back(std::move(*note));
 }
 
+std::optional<geo::LatLon> middle_of(const Source& source) {
+    std::array<Place, 1> middle{source.posts().at({(source.columns() - 1) / 2.0, (source.rows() - 1) / 2.0})};
+    const auto operation = Operation::to_wgs84(source.crs(), middle);
+    if (!operation) return {};
+    operation->forward(middle);
+    if (!std::isfinite(middle[0].x) || !(std::abs(middle[0].y) <= 90)) return {};
+    return geo::LatLon{geo::Degrees{middle[0].y}, geo::Degrees{middle[0].x}};
+}
+
 struct Part {
     double south, north, west, east;
     double highest_m;
@@ -140,6 +151,19 @@ Result<std::vector<std::string>> suspicions(const Source& source, const std::opt
             fmt::format("heights go down to {:.0f} m, below the deepest sea: voids may be undeclared "
                         "(--nodata) or the unit another (--height-scale)",
                         low));
+    return notes;
+}
+
+std::vector<std::string> suspicions_about(const std::vector<SourceRequest>& requests) {
+    std::vector<std::string> notes;
+    const std::size_t stride = 1 + requests.size() / kMostSuspected;
+    for (std::size_t i = 0; i < requests.size(); i += stride) {
+        const auto source = Source::open(requests[i]);
+        if (!source) continue;
+        const auto found = suspicions(*source, middle_of(*source));
+        if (!found) continue;
+        for (const auto& note : *found) notes.push_back(source->name() + ": " + note);
+    }
     return notes;
 }
 

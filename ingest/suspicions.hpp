@@ -17,6 +17,11 @@ namespace relevo::ingest {
 Result<std::vector<std::string>> suspicions(const Source& source,
                                             const std::optional<geo::LatLon>& where = {});
 
+/// The suspicions about some sources, each with its source's name. Of many, about kMostSuspected evenly
+/// chosen ones. What cannot be opened or read has none.
+std::vector<std::string> suspicions_about(const std::vector<SourceRequest>& requests);
+inline constexpr std::size_t kMostSuspected = 32;
+
 /// The highest ground of the part of the world around a place, metres above the sea, rounded up: what no land
 /// there exceeds. The whole earth's where no smaller part is known.
 double highest_ground_m(const geo::LatLon& place);

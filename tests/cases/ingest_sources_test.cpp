@@ -197,6 +197,52 @@ INSTANTIATE_TEST_SUITE_P(
         Format{"GPKG", "z.gpkg", GDT_Int16}),
     [](const auto& format) { return std::string{format.param.driver} + format.param.file[0]; });
 
+// Height maps without a place: 8 and 16 bits of grey (the LSTR document's inputs).
+TEST(Pictures, GreyHeightMapsTakeTheirPlaceFromTheUser) {
+    struct Case {
+        const char* driver;
+        const char* file;
+        GDALDataType type;
+    };
+    for (const Case& c : {Case{"PNG", "a.png", GDT_Byte}, Case{"PNG", "b.png", GDT_UInt16},
+                          Case{"BMP", "c.bmp", GDT_Byte}, Case{"GTiff", "d.tif", GDT_Byte},
+                          Case{"GTiff", "e.tif", GDT_UInt16}, Case{"PNM", "f.pgm", GDT_UInt16}}) {
+        const SceneFolder folder;
+        const int factor = c.type == GDT_Byte ? 1 : 250;
+        SyntheticRaster raster;
+        raster.georeferenced = false;
+        raster.crs = "";
+        raster.type = c.type;
+        raster.value = [&](int column, int row) { return factor * (10 + 5 * column + 7 * row); };
+        const auto plain = raster.write(folder / "plain.tif");
+        {
+            const DatasetPtr from{GDALDataset::Open(plain.c_str())};
+            auto* driver = GetGDALDriverManager()->GetDriverByName(c.driver);
+            ASSERT_NE(driver, nullptr) << c.driver;
+            const DatasetPtr to{
+                driver->CreateCopy((folder / c.file).c_str(), from.get(), FALSE, nullptr, nullptr, nullptr)};
+            ASSERT_TRUE(to);
+        }
+        SourceRequest request;
+        request.input = (folder / c.file).string();
+        const auto nowhere = Source::open(request);
+        ASSERT_FALSE(nowhere);
+        EXPECT_TRUE(test::says(nowhere.error().message, {c.file, "--bounds"}));
+        request.bounds = Bounds{10, 45, 12, 46};
+        const auto unnamed = Source::open(request);
+        ASSERT_FALSE(unnamed);
+        EXPECT_TRUE(test::says(unnamed.error().message, {c.file, "--crs"}));
+        request.crs = "EPSG:4326";
+        request.height_scale = 0.5;
+        request.height_offset = 100;
+        const auto heights = read_all(request, c.file);
+        ASSERT_EQ(heights.columns(), 20);
+        for (int r = 0; r < 10; ++r)
+            for (int column = 0; column < 20; ++column)
+                ASSERT_EQ(heights.at(column, r), factor * (10 + 5 * column + 7 * r) * 0.5 + 100) << c.file;
+    }
+}
+
 TEST(RealFormats, DtedHgtAndUsgsDemOfTheDevelopers) {
     RELEVO_NEEDS_DATA("odd/SainteHelens.dem");
     struct Case {

@@ -75,11 +75,17 @@ TEST(SourceRefuses, PicturesAndSeveralBands) {
     raster.type = GDT_Int16;
     EXPECT_TRUE(test::says(refusal_of(request_for(raster.write(folder / "three.tif"))),
                            {"3 bands", "--band", "\n  3  Int16"}));
+    {
+        auto* format = GetGDALDriverManager()->GetDriverByName("GTiff");
+        const DatasetPtr dataset{
+            format->Create((folder / "palette.tif").c_str(), 20, 10, 1, GDT_Byte, nullptr)};
+        GDALColorTable palette;
+        const GDALColorEntry red{200, 10, 10, 255};
+        palette.SetColorEntry(1, &red);
+        ASSERT_EQ(dataset->GetRasterBand(1)->SetColorTable(&palette), CE_None);
+    }
+    EXPECT_TRUE(test::says(refusal_of(request_for(folder / "palette.tif")), {"palette.tif", "image"}));
     raster.bands = 1;
-    raster.type = GDT_Byte;
-    raster.creation_options = {"PHOTOMETRIC=PALETTE"};
-    EXPECT_TRUE(
-        test::says(refusal_of(request_for(raster.write(folder / "palette.tif"))), {"palette.tif", "image"}));
     raster.creation_options = {};
     raster.type = GDT_CFloat32;
     EXPECT_TRUE(

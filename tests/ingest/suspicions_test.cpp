@@ -84,11 +84,28 @@ TEST(Suspicions, HigherThanGroundCanBe) {
     SourceRequest request;
     request.input = raster.write(folder / "a.tif").string();
     EXPECT_TRUE(test::says(notes_of(request), {"on earth", "--height-scale 0.3048"}));
-    EXPECT_TRUE(test::says(notes_of(request, at(46.5, 10.5)), {"heights reach 121", "4810 m", "--height-scale 0.1"}));
+    EXPECT_TRUE(
+        test::says(notes_of(request, at(46.5, 10.5)), {"heights reach 121", "4810 m", "--height-scale 0.1"}));
     request.height_scale = 0.5;  // 6 km: there are such mountains, but not here
     EXPECT_EQ(notes_of(request), "");
     EXPECT_TRUE(test::says(notes_of(request, at(46.5, 10.5)), {"in that part of the world"}));
     EXPECT_EQ(notes_of(request, at(28, 86.9)), "");
+}
+
+TEST(Suspicions, OfSeveralSourcesWithTheirNames) {
+    const SceneFolder folder;
+    SyntheticRaster raster = ground(100, 80);
+    std::vector<SourceRequest> requests(3);
+    requests[0].input = raster.write(folder / "good.tif").string();
+    raster.crs = "EPSG:32632";
+    raster.geotransform = {600000, 30, 0, 5200000, 0, -30};
+    raster.value = [](int c, int r) { return 6000 + c + r; };  // in the Alps
+    requests[1].input = raster.write(folder / "high.tif").string();
+    requests[2].input = (folder / "gone.tif").string();
+    const auto notes = suspicions_about(requests);
+    ASSERT_EQ(notes.size(), 1U);
+    EXPECT_TRUE(test::says(notes[0], {"high.tif: ", "in that part of the world", "4810 m"}));
+    EXPECT_EQ(suspicions_about(std::vector<SourceRequest>(1000, requests[1])).size(), 32U);
 }
 
 TEST(Suspicions, HighestGroundHoldsTheMountainsOfThere) {
