@@ -68,29 +68,17 @@ EllipsoidDerivatives geographic_derivatives(const geo::GridFrame& frame) {
     return {1.001 * stretch, 1.001 * bend};
 }
 
-/// UPS is conformal: a metre of the plane is 1 / k on the ground. Of the second derivative the ellipsoid's
-/// curvature is the normal part; the tangential part is the gradient of ln k, which on the ground is (1 - sin
-/// lat) / (radius of the parallel), all over k^2. Both are largest where k is smallest, 0.994 at the pole,
-/// but for the gradient, which is about t / (1 + t^2)^2 over the semi-axis with t = tan of half the angle
-/// from the pole.
+/// UPS is conformal: a metre of the plane is 1 / k on the ground, and k is 0.994 (1 + t^2), t = tan of half
+/// the angle from the pole (on a sphere of radius R). Of the second derivative the sphere's curvature is the
+/// normal part, 1 / (k^2 R); the tangential part is the gradient of ln k, t / (k^2 R). Together that is (1 +
+/// t^2)^(-3/2) / (0.994^2 R): largest at the pole. 1 %: the ellipsoid, whose curvature nowhere exceeds the
+/// meridian's at the equator.
 EllipsoidDerivatives polar_derivatives(const geo::GridFrame& frame) {
     using namespace geo::wgs84;
     constexpr double kPoleScale = 0.994;
-    constexpr double kSteepest = 0.325;  // the most that t / (1 + t^2)^2 can be
-    const double last = frame.padded_side() - 1;
-    double t = 0;
-    for (const geo::GridPosition corner : {geo::GridPosition{0, 0}, geo::GridPosition{last, 0},
-                                           geo::GridPosition{0, last}, geo::GridPosition{last, last}}) {
-        const double lat = frame.lat_lon(corner).lat.value;
-        const double from_pole = 90 - (frame.kind == geo::FrameKind::ups_north ? lat : -lat);
-        t = std::max(t, std::tan(geo::Degrees{0.5 * from_pole}.radians()));
-    }
-    const double curvature =
-        kSemiMajor / (kSemiMinor * kSemiMinor);  // of the meridian at the equator: the most
-    const double gradient = std::min(t, kSteepest) / kSemiMinor;
+    constexpr double kCurvature = kSemiMajor / (kSemiMinor * kSemiMinor);
     const double step = std::max(frame.step_x, frame.step_y) / kPoleScale;
-    // 1 %: what the ellipsoid makes of a sphere's t and gradient.
-    return {step, 1.01 * step * step * std::hypot(curvature, gradient)};
+    return {step, 1.01 * step * step * kCurvature};
 }
 
 }  // namespace

@@ -72,13 +72,16 @@ TEST_P(MeasureAroundAPole, ALineEqualsMarchingOverFarPosts) {
     std::mt19937_64 random(11);
     std::uniform_real_distribution<double> from_pole(0, 27);
     std::uniform_real_distribution<double> lon(-180, 180);
-    for (int i = 0; i < 40; ++i)
+    for (int i = 0; i < 10; ++i)
         expect_right(scene, {place(from_pole(random), lon(random)), place(from_pole(random), lon(random))},
-                     4000, 1e-7, 0.02);
-    for (const double east : {0.0, 45.0, 90.0, -135.0, 180.0}) {
-        expect_right(scene, {place(25, east), place(25, east + 180)}, 4000, 1e-7, 0.02);
-        expect_right(scene, {place(25, east), place(25, east + 60)}, 4000, 1e-7, 0.02);
-        expect_right(scene, {place(20, east), place(20, east + 179)}, 4000, 1e-7, 0.02);
+                     1000, 1e-7, 0.02);
+    for (const double east : {0.0, 45.0, 90.0, 180.0}) {
+        expect_right(scene, {place(25, east), place(25, east + 180)}, 1000, 1e-7, 0.02);
+        expect_right(scene, {place(25, east), place(25, east + 60)}, 1000, 1e-7, 0.02);
+        expect_right(scene, {place(20, east), place(20, east + 179)}, 1000, 1e-7, 0.02);
+        // Along a row or a column in its middle, where it turns back.
+        expect_right(scene, {place(27, east - 35), place(27, east + 35)}, 1000, 1e-7, 0.02);
+        expect_right(scene, {place(26.3, east - 30), place(26.1, east + 31)}, 1000, 1e-7, 0.02);
     }
 }
 
@@ -88,28 +91,36 @@ TEST_P(MeasureAroundAPole, CrossingsAreWhereRowsAndColumnsAreWhole) {
     std::uniform_real_distribution<double> from_pole(0, 60);
     std::uniform_real_distribution<double> lon(-180, 180);
     int cuts = 0;
-    for (int i = 0; i < 200; ++i) {
-        const lod::GridPath path(frame, place(from_pole(random), lon(random)),
-                                 place(from_pole(random), lon(random)));
-        for (const auto& stretch : path.stretches()) {
+    int turns = 0;
+    for (int i = 0; i < 240; ++i) {
+        // Every third line turns back at a row or a column.
+        const double from = from_pole(random);
+        const double axis = 90 * (i % 4);
+        const double half = 0.2 * lon(random);
+        const auto ends = i % 3 == 0 ? Ends{place(from, axis - half), place(from, axis + half)}
+                                     : Ends{place(from, lon(random)), place(from_pole(random), lon(random))};
+        const lod::GridPath path(frame, ends.from, ends.to);
+        const auto stretches = path.stretches();
+        for (std::size_t k = 1; k < stretches.size(); ++k)
+            turns += stretches[k].cuts.front() - stretches[k - 1].cuts.back() < 1e-6;
+        for (const auto& stretch : stretches) {
             for (std::size_t k = 1; k < stretch.cuts.size(); ++k) {
                 ++cuts;
-                const auto before = path.at(stretch.cuts[k - 1], 0).grid;
-                const auto here = path.at(stretch.cuts[k], 0).grid;
                 // No whole row or column between two cuts: by a fine march.
-                for (int part = 1; part < 20; ++part) {
+                const auto middle = path.at(0.5 * (stretch.cuts[k - 1] + stretch.cuts[k]), 0).grid;
+                for (int part = 0; part <= 20; ++part) {
                     const auto grid =
                         path.at(stretch.cuts[k - 1] + (stretch.cuts[k] - stretch.cuts[k - 1]) * part / 20, 0)
                             .grid;
-                    EXPECT_GE(grid.column, std::floor(std::min(before.column, here.column) + 2e-6) - 2e-6);
-                    EXPECT_LE(grid.column, std::ceil(std::max(before.column, here.column) - 2e-6) + 2e-6);
-                    EXPECT_LE(std::floor(grid.column - 2e-6) - std::floor(before.column + 2e-6), 1);
+                    EXPECT_GE(grid.column, std::floor(middle.column) - 2e-6);
+                    EXPECT_LE(grid.column, std::ceil(middle.column) + 2e-6);
+                    EXPECT_GE(grid.row, std::floor(middle.row) - 2e-6);
+                    EXPECT_LE(grid.row, std::ceil(middle.row) + 2e-6);
                 }
-                EXPECT_LE(std::abs(here.column - before.column), 1 + 2e-6);
-                EXPECT_LE(std::abs(here.row - before.row), 1 + 2e-6);
             }
         }
     }
+    EXPECT_GT(turns, 20);
     EXPECT_GT(cuts, 5000);
 }
 
