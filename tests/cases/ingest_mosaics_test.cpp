@@ -1,7 +1,8 @@
 // Many sources as one grid: real tiles that adjoin, and made ones of which every post is known.
+#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <fstream>
+#include <cstdio>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -154,6 +155,322 @@ TEST(Mosaics, ProjectedTilesWithoutASharedRowAreTheirVrt) {
     for (const auto& mark : scene.marks.samples())
         if (!mark.is_void()) sources.insert(mark.source());
     EXPECT_EQ(sources, (std::set<int>{0, 1, 2, 3}));
+}
+
+/// A surface over degrees that no interpolation makes exactly.
+double ground(double lon, double lat) {
+    return 800 + 400 * std::sin(lon * 37) * std::cos(lat * 29) + 30 * std::sin(lon * 411 + lat * 293);
+}
+
+/// A geographic tile of the ground: posts from (west, north) on, with exact steps.
+SyntheticRaster tile(double west, double north, double step, int columns, int rows) {
+    SyntheticRaster raster;
+    raster.type = GDT_Float32;
+    raster.columns = columns;
+    raster.rows = rows;
+    raster.geotransform = {west - 0.5 * step, step, 0, north + 0.5 * step, 0, -step};
+    raster.value = [=](int c, int r) { return ground(west + step * c, north - step * r); };
+    return raster;
+}
+
+constexpr double kStep = 1.0 / 1024;  // degrees; exact, so that tiles' georeferences do not round
+
+// As Copernicus cuts its tiles. Truth: the same posts in one file.
+TEST(Mosaics, TilesWithoutASharedRowAreOneRaster) {
+    const SceneFolder folder;
+    std::vector<std::filesystem::path> tiles;
+    for (int j = 0; j < 2; ++j)
+        for (int i = 0; i < 3; ++i)
+            tiles.push_back(tile(10 + 200 * i * kStep, 50 - 150 * j * kStep, kStep, 200, 150)
+                                .write(folder / ("t" + std::to_string(i) + std::to_string(j) + ".tif")));
+    const auto one = tile(10, 50, kStep, 600, 300).write(folder / "one.tif");
+    for (const double step : {kStep, 0.73 * kStep, 3.1 * kStep}) {
+        auto request = request_for(tiles);
+        auto truth_request = request_for({one});
+        request.target.resolution = truth_request.target.resolution = {step, step};
+        const auto scene = whole_mosaic(request, true);
+        const auto truth = whole_mosaic(truth_request, true);
+        EXPECT_EQ(scene.method, step == kStep ? "none" : step < kStep ? "cubic" : "average");
+        ASSERT_EQ(scene.frame.columns, truth.frame.columns);
+        ASSERT_EQ(scene.frame.rows, truth.frame.rows);
+        for (std::size_t i = 0; i < scene.heights.samples().size(); ++i)
+            ASSERT_TRUE(same(scene.heights.samples()[i], truth.heights.samples()[i])) << step << " " << i;
+        EXPECT_EQ(scene.error.posts, truth.error.posts);
+        EXPECT_EQ(scene.error.max_m, truth.error.max_m);
+        // Each post's source is the tile that holds the nearest source post.
+        for (int r = 0; r < scene.frame.rows; r += 7)
+            for (int c = 0; c < scene.frame.columns; c += 5) {
+                if (scene.marks.at(c, r).is_void()) continue;
+                const double x = (scene.frame.west + c * scene.frame.step_x - 10) / kStep;
+                const double y = (50 - scene.frame.north + r * scene.frame.step_y) / kStep;
+                if (std::abs(x - std::floor(x) - 0.5) < 1e-6 || std::abs(y - std::floor(y) - 0.5) < 1e-6)
+                    continue;
+                const int expected = std::min(static_cast<int>(std::lround(x)) / 200, 2) +
+                                     3 * std::min(static_cast<int>(std::lround(y)) / 150, 1);
+                ASSERT_EQ(scene.marks.at(c, r).source(), expected) << c << " " << r;
+            }
+    }
+}
+
+TEST(Mosaics, FinestWinsAndOrderMayDecide) {
+    const SceneFolder folder;
+    const auto plain = [](double west, double north, double step, int count, double height) {
+        auto raster = tile(west, north, step, count, count);
+        raster.value = [=](int, int) { return height; };
+        return raster;
+    };
+    const auto coarse = plain(10, 50, 4 * kStep, 51, 100).write(folder / "coarse.tif");
+    auto with_void = plain(10 + 40 * kStep, 50 - 40 * kStep, kStep, 81, 200);
+    with_void.nodata = -9999;
+    with_void.value = [](int c, int r) { return c >= 30 && c < 50 && r >= 30 && r < 50 ? -9999.0 : 200.0; };
+    const auto fine = with_void.write(folder / "fine.tif");
+    const auto again = plain(10 + 100 * kStep, 50 - 40 * kStep, kStep, 81, 300).write(folder / "again.tif");
+
+    const auto finest = whole_mosaic(request_for({coarse, fine, again}));
+    EXPECT_EQ(finest.frame.columns, 201);
+    EXPECT_EQ(finest.frame.step_x, kStep);
+    EXPECT_EQ(finest.heights.at(10, 10), 100);
+    EXPECT_EQ(finest.heights.at(50, 50), 200);
+    EXPECT_EQ(finest.heights.at(80, 80), 100);   // through the finer one's hole
+    EXPECT_EQ(finest.heights.at(110, 50), 200);  // both fine ones: the first of the inputs
+    EXPECT_EQ(finest.heights.at(130, 50), 300);
+    EXPECT_EQ(finest.marks.at(10, 10).source(), 0);
+    EXPECT_EQ(finest.marks.at(50, 50).source(), 1);
+    EXPECT_EQ(finest.marks.at(80, 80).source(), 0);
+    EXPECT_EQ(finest.marks.at(130, 50).source(), 2);
+    EXPECT_EQ(whole_mosaic(request_for({coarse, again, fine})).heights.at(110, 50), 300);
+
+    auto request = request_for({coarse, fine, again});
+    request.priority = Priority::order;
+    const auto ordered = whole_mosaic(request);
+    EXPECT_EQ(ordered.frame.step_x, kStep);  // no post is lost all the same
+    EXPECT_EQ(ordered.heights.at(50, 50), 100);
+    EXPECT_EQ(ordered.heights.at(130, 50), 100);
+    request = request_for({again, coarse, fine});
+    request.priority = Priority::order;
+    const auto between = whole_mosaic(request);
+    EXPECT_EQ(between.heights.at(130, 50), 300);
+    EXPECT_EQ(between.heights.at(50, 50), 100);
+}
+
+// Somebody's UTM warp of the tile lies around it: the tile's own posts stay, bit for bit.
+TEST(Mosaics, MixedStepsAndCrss) {
+    RELEVO_NEEDS_DATA("odd/N00E010_utm.tif");
+    const auto own = shared_data("mosaic/gabon/N00E010.hgt");
+    const auto warped = shared_data("odd/N00E010_utm.tif");
+    for (const bool own_first : {true, false}) {
+        const auto scene =
+            whole_mosaic(own_first ? request_for({own, warped}) : request_for({warped, own}), own_first);
+        EXPECT_NEAR(scene.frame.step_x, 1.0 / 1200, 1e-12);
+        const GdalRaster truth{own};
+        const auto first = scene.frame.grid_position({geo::Degrees{truth.y(0)}, geo::Degrees{truth.x(0)}});
+        const int left = static_cast<int>(std::lround(first.column));
+        const int top = static_cast<int>(std::lround(first.row));
+        EXPECT_NEAR(first.column, left, 1e-6);
+        for (int r = 0; r < truth.rows; ++r)
+            for (int c = 0; c < truth.columns; ++c) {
+                if (std::isnan(truth.at(c, r))) continue;
+                const auto mark = scene.marks.at(left + c, top + r);
+                const bool from_own = mark.source() == (own_first ? 0 : 1);
+                if (own_first) {
+                    ASSERT_TRUE(from_own) << c << " " << r;
+                }
+                if (from_own) {
+                    ASSERT_EQ(scene.heights.at(left + c, top + r), static_cast<float>(truth.at(c, r)));
+                }
+            }
+    }
+}
+
+// H + N of the one - N of the other. Truth: the same ellipsoidal surface, with N by GeographicLib's way of
+// geo::Geoid, whose accuracy its own tests show.
+TEST(Mosaics, MixedDatumsAreBroughtToOne) {
+    const SceneFolder folder;
+    const auto geoid = geo::Geoid::egm96();
+    ASSERT_TRUE(geoid);
+    const auto undulation = [&](double lon, double lat) {
+        return geoid->undulation({geo::Degrees{lat}, geo::Degrees{lon}}).m;
+    };
+    auto west = tile(10, 50, kStep, 201, 201);
+    west.crs = "EPSG:4326+5773";
+    auto east = tile(10 + 200 * kStep, 50, kStep, 201, 201);
+    east.crs = "EPSG:4979";
+    east.value = [=](int c, int r) {
+        const double lon = 10 + (200 + c) * kStep;
+        const double lat = 50 - r * kStep;
+        return ground(lon, lat) + undulation(lon, lat);
+    };
+    const auto a = west.write(folder / "msl.tif");
+    const auto b = east.write(folder / "ellipsoid.tif");
+    const auto msl = whole_mosaic(request_for({a, b}), true);
+    EXPECT_EQ(msl.vertical.datum, lod::VerticalDatum::egm96);
+    EXPECT_FALSE(msl.fits_int16);
+    ASSERT_EQ(msl.frame.columns, 401);
+    for (int r = 0; r < 201; r += 3)
+        for (int c = 0; c < 401; ++c)
+            ASSERT_NEAR(static_cast<double>(msl.heights.at(c, r)), ground(10 + c * kStep, 50 - r * kStep),
+                        1e-3)
+                << c << " " << r;
+    EXPECT_LT(msl.error.max_m, 1e-3);
+    EXPECT_EQ(msl.error.lost_posts, 0U);
+
+    auto request = request_for({a, b});
+    request.datum = lod::VerticalReference{lod::VerticalDatum::ellipsoid, "WGS 84 ellipsoid", false};
+    const auto ellipsoidal = whole_mosaic(request);
+    EXPECT_EQ(ellipsoidal.vertical.datum, lod::VerticalDatum::ellipsoid);
+    for (int r = 0; r < 201; r += 3)
+        for (int c = 0; c < 401; ++c) {
+            const double lon = 10 + c * kStep;
+            const double lat = 50 - r * kStep;
+            ASSERT_NEAR(static_cast<double>(ellipsoidal.heights.at(c, r)),
+                        ground(lon, lat) + undulation(lon, lat), 1e-3);
+        }
+}
+
+TEST(Mosaics, ADatumWithoutItsGeoidIsAnErrorThatNamesTheGrid) {
+    const SceneFolder folder;
+    auto west = tile(10, 50, kStep, 21, 21);
+    west.crs = "EPSG:4326+5773";
+    auto east = tile(10 + 20 * kStep, 50, kStep, 21, 21);
+    east.crs = "EPSG:4326+3855";  // EGM2008
+    const auto mosaic =
+        Mosaic::open(request_for({west.write(folder / "a.tif"), east.write(folder / "b.tif")}));
+    ASSERT_FALSE(mosaic);
+    EXPECT_EQ(mosaic.error().kind, ErrorKind::input);
+    EXPECT_TRUE(test::says(mosaic.error().message, {"b.tif", "EGM2008", "--geoid"}));
+    // Nothing to convert: nothing is missing.
+    EXPECT_TRUE(Mosaic::open(request_for({folder / "b.tif"})));
+}
+
+TEST(Mosaics, NeighboursAcrossTheAntimeridian) {
+    const SceneFolder folder;
+    auto west = tile(180 - 100 * kStep, -16, kStep, 101, 80);  // to 180 E
+    auto east = tile(-180, -16, kStep, 101, 80);               // from 180 W
+    east.value = [](int c, int r) { return ground(180 + c * kStep, -16 - r * kStep); };
+    const auto a = west.write(folder / "w.tif");
+    const auto b = east.write(folder / "e.tif");
+    for (const bool west_first : {true, false}) {
+        const auto scene = whole_mosaic(west_first ? request_for({a, b}) : request_for({b, a}), true);
+        EXPECT_EQ(scene.method, "none");
+        EXPECT_EQ(scene.frame.west, 180 - 100 * kStep);
+        ASSERT_EQ(scene.frame.columns, 201);
+        for (int r = 0; r < 80; ++r)
+            for (int c = 0; c < 201; ++c)
+                ASSERT_EQ(scene.heights.at(c, r),
+                          static_cast<float>(ground(180 + (c - 100) * kStep, -16 - r * kStep)))
+                    << c << " " << r;
+        EXPECT_EQ(scene.error.max_m, 0);
+        EXPECT_EQ(scene.error.lost_posts, 0U);
+    }
+}
+
+TEST(Mosaics, FeatherLeavesNoStep) {
+    const SceneFolder folder;
+    auto coarse = tile(10, 50, 2 * kStep, 201, 201);
+    coarse.value = [](int, int) { return 100.0; };
+    auto fine = tile(10 + 100 * kStep, 50 - 100 * kStep, kStep, 201, 201);
+    fine.nodata = -9999;
+    fine.value = [](int c, int r) {
+        return (c - 120) * (c - 120) + (r - 90) * (r - 90) < 400 ? -9999 : 150.0;
+    };
+    auto request = request_for({coarse.write(folder / "coarse.tif"), fine.write(folder / "fine.tif")});
+    const auto hard = whole_mosaic(request);
+    request.feather_m = 2000;
+    const auto soft = whole_mosaic(request);
+    const auto largest_step = [](const WholeMosaic& scene) {
+        float largest = 0;
+        for (int r = 0; r + 1 < scene.frame.rows; ++r)
+            for (int c = 0; c + 1 < scene.frame.columns; ++c)
+                largest = std::max({largest, std::abs(scene.heights.at(c + 1, r) - scene.heights.at(c, r)),
+                                    std::abs(scene.heights.at(c, r + 1) - scene.heights.at(c, r))});
+        return largest;
+    };
+    EXPECT_EQ(largest_step(hard), 50);
+    // 50 m over 2000 m, at most a post's 109 m of it at once.
+    EXPECT_LT(largest_step(soft), 50 * 109.0F / 2000 + 0.01F);
+    EXPECT_EQ(soft.valid_posts(), hard.valid_posts());
+    EXPECT_EQ(soft.heights.at(10, 10), 100);
+    EXPECT_EQ(soft.heights.at(260, 260), 150);  // 40 posts, 2.8 km and more, inside
+    EXPECT_EQ(soft.heights.at(220, 190), 100);  // in the hole
+    // Weights by brute force: the distance to the nearest post that only the coarse one has.
+    const auto spacing = soft.frame.spacing({0, 192 + 32.0});
+    for (const auto& [column, row] : {std::pair{110, 200}, std::pair{245, 200}, std::pair{200, 215}}) {
+        double nearest = 1e9;
+        for (int r = 0; r < hard.frame.rows; ++r)
+            for (int c = 0; c < hard.frame.columns; ++c)
+                if (hard.heights.at(c, r) == 100)
+                    nearest = std::min(
+                        nearest, std::hypot((c - column) * spacing.column_m, (r - row) * spacing.row_m));
+        const double weight = std::min(nearest / 2000, 1.0);
+        EXPECT_NEAR(static_cast<double>(soft.heights.at(column, row)), 100 + 50 * weight, 1e-3)
+            << column << " " << row;
+    }
+    request.feather_m = 40000;
+    const auto wide = Mosaic::open(request);
+    ASSERT_FALSE(wide);
+    EXPECT_TRUE(test::says(wide.error().message, {"--feather", "256"}));
+}
+
+int open_files() {
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+        (void)entry;
+        ++count;
+    }
+    return count;
+}
+
+TEST(Mosaics, ThousandsOfTilesWithFewOpenFiles) {
+    const SceneFolder folder;
+    constexpr int kAcross = 60;
+    constexpr int kDown = 50;
+    constexpr int kSide = 20;
+    std::filesystem::create_directory(folder / "tiles");
+    for (int j = 0; j < kDown; ++j)
+        for (int i = 0; i < kAcross; ++i)
+            tile(10 + i * kSide * kStep, 50 - j * kSide * kStep, kStep, kSide, kSide)
+                .write(folder / "tiles" / ("t" + std::to_string(j * kAcross + i) + ".tif"));
+    const int before = open_files();
+    const auto start = std::chrono::steady_clock::now();
+    const auto mosaic = Mosaic::open(request_for({folder / "tiles"}));
+    ASSERT_TRUE(mosaic) << mosaic.error().message;
+    std::atomic<int> most = open_files();
+    const auto& frame = mosaic->frame();
+    ASSERT_EQ(frame.columns, kAcross * kSide);
+    ASSERT_EQ(frame.rows, kDown * kSide);
+    const auto done = test::for_each_block_of(frame, [&](Window w) -> Result<void> {
+        const auto posts = mosaic->read(w);
+        if (!posts) return posts.error();
+        most = std::max(most.load(), open_files());
+        for (int r = 0; r < w.rows; ++r)
+            for (int c = 0; c < w.columns; ++c) {
+                const float truth =
+                    static_cast<float>(ground(10 + (w.column + c) * kStep, 50 - (w.row + r) * kStep));
+                if (posts->heights.at(c, r) != truth)
+                    return Error{ErrorKind::internal, "a post differs: " + std::to_string(w.column + c)};
+            }
+        return {};
+    });
+    EXPECT_TRUE(done) << done.error().message;
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    EXPECT_LT(most - before, 64 + 16);
+    EXPECT_LT(seconds, 60);  // 4 s alone on two cores, at most twice 3000 openings
+    std::printf("3000 tiles: %.1f s, %d files open at most\n", seconds, most - before);
+}
+
+TEST(Mosaics, ATileThatVanishesIsNamed) {
+    const SceneFolder folder;
+    std::vector<std::filesystem::path> tiles;
+    for (int i = 0; i < 70; ++i)
+        tiles.push_back(
+            tile(10 + i * 20 * kStep, 50, kStep, 20, 20).write(folder / ("t" + std::to_string(i) + ".tif")));
+    const auto mosaic = Mosaic::open(request_for(tiles));
+    ASSERT_TRUE(mosaic);
+    std::filesystem::remove(folder / "t69.tif");  // not among those that stayed open
+    const auto posts = mosaic->read({1024, 0, mosaic->frame().columns - 1024, 20});
+    ASSERT_FALSE(posts);
+    EXPECT_EQ(posts.error().kind, ErrorKind::input);
+    EXPECT_TRUE(test::says(posts.error().message, {"t69.tif"}));
 }
 
 }  // namespace
