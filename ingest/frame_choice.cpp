@@ -368,14 +368,12 @@ std::optional<OwnPosts> own_posts(const PostGrid& grid, const geo::GridFrame& fr
     return own;
 }
 
-Result<void> check(const std::string& name, const geo::GridFrame& frame) {
-    if (frame.is_polar()) return {};
-    const double south = frame.north - frame.step_y * (frame.rows - 1);
-    if (frame.north > 90 + kSamePost * frame.step_y || south < -90 - kSamePost * frame.step_y)
-        return refusal(
-            name, fmt::format("it has posts beyond a pole (latitudes {:.6f} to {:.6f})", south, frame.north),
-            "Check --crs and --bounds");
-    return {};
+Result<void> check(const std::string& name, double south, double north) {
+    constexpr double kTiny = 1e-6;  // degrees
+    if (north <= 90 + kTiny && south >= -90 - kTiny) return {};
+    return refusal(name,
+                   fmt::format("it has posts beyond a pole (latitudes {:.6f} to {:.6f})", south, north),
+                   "Check --crs and --bounds");
 }
 
 }  // namespace
@@ -391,6 +389,7 @@ Result<ChosenFrame> choose_frame(const std::string& name, std::vector<PostGrid> 
     const auto covered = coverage_of(grids, request);
     if (!covered) return refusal(name, "none of its posts has a place on earth", "Check the CRS (--crs)");
     Bounds degrees = covered->bounds;
+    if (auto sound = check(name, degrees.south, degrees.north); !sound) return sound.error();
     std::optional<Bounds> crop;
     if (request.crop) {
         const auto part = cropped(name, *covered, *request.crop);
@@ -411,7 +410,6 @@ Result<ChosenFrame> choose_frame(const std::string& name, std::vector<PostGrid> 
                      ? aligned_frame(name, *lattice, plane, *bounds, crop.has_value(), covered->all_round)
                      : fitted_frame(name, *finest, plane, *bounds, covered->all_round, request);
     if (!frame) return frame.error();
-    if (auto sound = check(name, *frame); !sound) return sound.error();
 
     ChosenFrame chosen{*frame, {}, {}};
     double moved = 0;

@@ -202,6 +202,10 @@ Result<OpenDataset> open_dataset(const OpenRequest& request, const GdalMessages&
     GDALAllRegister();
     const OptionInScope half_pixel{"GTIFF_POINT_GEO_IGNORE", "NO"};
     const OptionInScope no_python{"GDAL_VRT_ENABLE_PYTHON", "NO"};
+    // Companions are looked for by name: listing a folder of thousands of tiles for each of them takes longer
+    // than opening it.
+    const char* listing = "GDAL_DISABLE_READDIR_ON_OPEN";
+    const OptionInScope no_listing{listing, CPLGetConfigOption(listing, "TRUE")};
 
     std::string input = request.input;
     std::optional<std::string> variable = request.variable;

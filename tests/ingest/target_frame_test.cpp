@@ -1,9 +1,9 @@
-#include "ingest/target_frame.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
+
+#include "ingest/frame_choice.hpp"
 
 namespace relevo::ingest {
 namespace {
@@ -24,12 +24,20 @@ Affine north_up(double x0, double y0, double step_x, double step_y) {
     return posts;
 }
 
+/// One grid as the frame is chosen for it.
+struct OneTarget {
+    geo::GridFrame frame;
+    std::optional<OwnPosts> own;
+    bool downsamples = false;
+    std::vector<std::string> notes;
+};
+
 /// A grid's target, with the map for checks.
 struct Chosen {
     Result<Crs> crs;
     Result<Operation> operation;
     std::unique_ptr<SourceMap> map;
-    Result<Target> target;
+    Result<OneTarget> target;
 };
 
 Chosen choose(const Grid& grid, const TargetRequest& request = {}) {
@@ -43,7 +51,12 @@ Chosen choose(const Grid& grid, const TargetRequest& request = {}) {
     EXPECT_TRUE(chosen.operation) << grid.crs;
     chosen.map =
         std::make_unique<SourceMap>(*chosen.operation, *chosen.crs, grid.posts, grid.columns, grid.rows);
-    chosen.target = choose_target("test", *chosen.crs, grid.posts, *chosen.map, request);
+    const auto frame =
+        choose_frame("test", {{&*chosen.crs, grid.posts, *chosen.map, {*chosen.map}, 1}}, request);
+    if (frame)
+        chosen.target = OneTarget{frame->frame, frame->uses[0].own, frame->uses[0].downsamples, frame->notes};
+    else
+        chosen.target = frame.error();
     return chosen;
 }
 
@@ -84,6 +97,7 @@ TEST(TargetFrame, LongitudesInAnyTurn) {
     const auto whole = choose({"EPSG:4326", north_up(0, 90, 1, 1), 360, 181});
     ASSERT_TRUE(whole.target && whole.target->own);
     EXPECT_EQ(whole.target->frame.west, 0);
+    EXPECT_EQ(whole.target->frame.columns, 361);  // the first column comes again
     const auto closed = choose({"EPSG:4326", north_up(-180, 90, 1, 1), 361, 181});
     ASSERT_TRUE(closed.target && closed.target->own);
     EXPECT_EQ(closed.target->frame.columns, 361);
@@ -112,8 +126,8 @@ TEST(TargetFrame, CropKeepsPosts) {
         EXPECT_NEAR(chosen.target->frame.north, 49.95, 1e-12);
         EXPECT_EQ(chosen.target->frame.columns, 4);
         EXPECT_EQ(chosen.target->frame.rows, 6);
-        EXPECT_EQ(chosen.target->own->window.column, 3);
-        EXPECT_EQ(chosen.target->own->window.row, south_up ? 90 : 5);
+        EXPECT_EQ(chosen.target->own->of({0, 0, 4, 6}).column, 3);
+        EXPECT_EQ(chosen.target->own->of({0, 0, 4, 6}).row, south_up ? 90 : 5);
     }
     request.crop = Bounds{20, 49.9, 21, 49.95};
     const auto outside = choose({"EPSG:4326", north_up(10, 50, 0.01, 0.01), 101, 101}, request);
@@ -178,14 +192,19 @@ TEST(TargetFrame, UtmAcrossTheAntimeridianIsOnePiece) {
     }
 }
 
-TEST(TargetFrame, APoleInsideIsRefusedAndItsSurroundingsAreNot) {
+TEST(TargetFrame, APoleInsideTakesUpsAndItsSurroundingsNeedNot) {
     const Grid antarctica{"EPSG:3031", north_up(-3000000, 3000000, 50000, 50000), 121, 121};
-    const auto all = choose(antarctica);
+    EXPECT_EQ(choose(antarctica).target->frame.kind, geo::FrameKind::ups_south);
+    TargetRequest geographic;
+    geographic.frame = FrameChoice::geographic;
+    const auto all = choose(antarctica, geographic);
     ASSERT_FALSE(all.target);
     EXPECT_EQ(all.target.error().kind, ErrorKind::input);
     EXPECT_NE(all.target.error().message.find("--crop"), std::string::npos);
     TargetRequest request;
     request.crop = Bounds{-70, -84, -55, -72};
+    EXPECT_EQ(choose(antarctica, request).target->frame.kind, geo::FrameKind::ups_south);
+    request.frame = FrameChoice::geographic;
     const auto part = choose(antarctica, request);
     ASSERT_TRUE(part.target) << part.target.error().message;
     EXPECT_NEAR(part.target->frame.west, -70, 1e-9);
