@@ -371,8 +371,7 @@ std::optional<OwnPosts> own_posts(const PostGrid& grid, const geo::GridFrame& fr
 Result<void> check(const std::string& name, double south, double north) {
     constexpr double kTiny = 1e-6;  // degrees
     if (north <= 90 + kTiny && south >= -90 - kTiny) return {};
-    return refusal(name,
-                   fmt::format("it has posts beyond a pole (latitudes {:.6f} to {:.6f})", south, north),
+    return refusal(name, fmt::format("it has posts beyond a pole (latitudes {:.6f} to {:.6f})", south, north),
                    "Check --crs and --bounds");
 }
 
