@@ -1,8 +1,8 @@
 // Many sources as one grid: real tiles that adjoin, and made ones of which every post is known.
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -431,7 +431,7 @@ TEST(Mosaics, ThousandsOfTilesWithFewOpenFiles) {
             tile(10 + i * kSide * kStep, 50 - j * kSide * kStep, kStep, kSide, kSide)
                 .write(folder / "tiles" / ("t" + std::to_string(j * kAcross + i) + ".tif"));
     const int before = open_files();
-    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start = std::clock();  // of the processor, so that a busy machine does not count
     const auto mosaic = Mosaic::open(request_for({folder / "tiles"}));
     ASSERT_TRUE(mosaic) << mosaic.error().message;
     std::atomic<int> most = open_files();
@@ -452,10 +452,10 @@ TEST(Mosaics, ThousandsOfTilesWithFewOpenFiles) {
         return {};
     });
     EXPECT_TRUE(done) << done.error().message;
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     EXPECT_LT(most - before, 64 + 16);
-    EXPECT_LT(seconds, 60);  // 4 s alone on two cores, at most twice 3000 openings
-    std::printf("3000 tiles: %.1f s, %d files open at most\n", seconds, most - before);
+    EXPECT_LT(seconds, 60);  // each is opened twice, at about 1 ms; 10 s in all
+    std::printf("3000 tiles: %.1f s of processor time, %d files open at most\n", seconds, most - before);
 }
 
 TEST(Mosaics, ATileThatVanishesIsNamed) {
