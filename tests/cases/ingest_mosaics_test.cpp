@@ -362,6 +362,19 @@ TEST(Mosaics, NeighboursAcrossTheAntimeridian) {
         EXPECT_EQ(scene.error.max_m, 0);
         EXPECT_EQ(scene.error.lost_posts, 0U);
     }
+    // Resampled, too, there is no gap at the meridian. Truth: the same posts in one file.
+    auto request = request_for({a, b});
+    auto truth_request =
+        request_for({tile(180 - 100 * kStep, -16, kStep, 201, 80).write(folder / "one.tif")});
+    request.target.resolution = truth_request.target.resolution = {0.7 * kStep, 0.7 * kStep};
+    const auto scene = whole_mosaic(request);
+    const auto truth = whole_mosaic(truth_request);
+    EXPECT_EQ(scene.method, "cubic");
+    ASSERT_EQ(scene.heights.samples().size(), truth.heights.samples().size());
+    for (std::size_t i = 0; i < truth.heights.samples().size(); ++i) {
+        ASSERT_FALSE(std::isnan(scene.heights.samples()[i])) << i;
+        ASSERT_NEAR(scene.heights.samples()[i], truth.heights.samples()[i], 1e-3) << i;
+    }
 }
 
 TEST(Mosaics, FeatherLeavesNoStep) {
