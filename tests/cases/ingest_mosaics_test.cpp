@@ -362,18 +362,24 @@ TEST(Mosaics, NeighboursAcrossTheAntimeridian) {
         EXPECT_EQ(scene.error.max_m, 0);
         EXPECT_EQ(scene.error.lost_posts, 0U);
     }
-    // Resampled, too, there is no gap at the meridian. Truth: the same posts in one file.
-    auto request = request_for({a, b});
-    auto truth_request =
-        request_for({tile(180 - 100 * kStep, -16, kStep, 201, 80).write(folder / "one.tif")});
-    request.target.resolution = truth_request.target.resolution = {0.7 * kStep, 0.7 * kStep};
-    const auto scene = whole_mosaic(request);
-    const auto truth = whole_mosaic(truth_request);
-    EXPECT_EQ(scene.method, "cubic");
-    ASSERT_EQ(scene.heights.samples().size(), truth.heights.samples().size());
-    for (std::size_t i = 0; i < truth.heights.samples().size(); ++i) {
-        ASSERT_FALSE(std::isnan(scene.heights.samples()[i])) << i;
-        ASSERT_NEAR(scene.heights.samples()[i], truth.heights.samples()[i], 1e-3) << i;
+    // Resampled, too, there is no gap at the meridian, also where a full turn is no whole number of steps.
+    // Truth: the same posts in one file.
+    for (const double step : {kStep, 0.0007}) {
+        auto other = tile(-180, -16, step, 101, 80);
+        other.value = [=](int c, int r) { return ground(180 + c * step, -16 - r * step); };
+        auto request = request_for({tile(180 - 100 * step, -16, step, 101, 80).write(folder / "w.tif"),
+                                    other.write(folder / "e.tif")});
+        auto truth_request =
+            request_for({tile(180 - 100 * step, -16, step, 201, 80).write(folder / "one.tif")});
+        request.target.resolution = truth_request.target.resolution = {0.7 * step, 0.7 * step};
+        const auto scene = whole_mosaic(request);
+        const auto truth = whole_mosaic(truth_request);
+        EXPECT_EQ(scene.method, "cubic");
+        ASSERT_EQ(scene.heights.samples().size(), truth.heights.samples().size());
+        for (std::size_t i = 0; i < truth.heights.samples().size(); ++i) {
+            ASSERT_FALSE(std::isnan(scene.heights.samples()[i])) << step << " " << i;
+            ASSERT_NEAR(scene.heights.samples()[i], truth.heights.samples()[i], 1e-3) << step << " " << i;
+        }
     }
 }
 
