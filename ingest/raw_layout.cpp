@@ -51,7 +51,7 @@ bool take(std::string_view& text, char c) {
 
 Result<RawLayout> raw_layout(const std::string& text) {
     const Error unreadable{ErrorKind::usage,
-                           fmt::format("--raw '{}': give columns x rows, type and byte order, such as "
+                           fmt::format("'{}': give columns x rows, type and byte order, such as "
                                        "3601x3601,int16,be; types are uint8, int16, uint16, int32, float32, "
                                        "float64, orders le and be",
                                        text)};

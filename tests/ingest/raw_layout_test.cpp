@@ -28,7 +28,7 @@ TEST(RawLayout, IsReadFromText) {
         const auto layout_of_bad = raw_layout(bad);
         ASSERT_FALSE(layout_of_bad) << bad;
         EXPECT_EQ(layout_of_bad.error().kind, ErrorKind::usage);
-        EXPECT_TRUE(test::says(layout_of_bad.error().message, {"--raw", "3601x3601,int16,be"}));
+        EXPECT_TRUE(test::says(layout_of_bad.error().message, {"3601x3601,int16,be"}));
     }
 }
 
