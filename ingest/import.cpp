@@ -219,9 +219,7 @@ Result<Imported> import_scene(const ImportOptions& options, const std::filesyste
         if (!geoid) return geoid.error();
         undulations = lod::UndulationGrid{*geoid, info.frame};
     }
-    const auto metrics =
-        lod::build_metrics(info.frame, undulations, *heights, Stage{progress, kErrorDone, kMetricsDone});
-    if (!metrics) return interrupted();
+    const auto metrics = lod::build_metrics(info.frame, undulations, *heights);
 
     plan.source.notes = joined(plan.notes);
     if (!plan.source.operation_note.empty()) plan.notes.push_back(plan.source.operation_note);
@@ -231,7 +229,7 @@ Result<Imported> import_scene(const ImportOptions& options, const std::filesyste
         plan.source.sha256 = std::move(*checksum);
     }
     info.sources.push_back(std::move(plan.source));
-    if (auto done = write(*writer, info, *heights, *metrics, undulations, Stage{progress, kMetricsDone, 1});
+    if (auto done = write(*writer, info, *heights, metrics, undulations, Stage{progress, kMetricsDone, 1});
         !done)
         return done.error();
     if (progress) progress(1);

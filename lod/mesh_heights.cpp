@@ -1,84 +1,150 @@
 #include "lod/mesh_heights.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace relevo::lod {
 
 namespace {
 
-bool has_void(const Raster<float>& heights) {
-    return std::any_of(heights.samples().begin(), heights.samples().end(),
-                       [](float H) { return std::isnan(H); });
-}
+constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
 
-/// Every second sample in both axes: the mean of the valid ones among its four.
-Raster<float> half_size(const Raster<float>& fine) {
-    Raster<float> coarse((fine.columns() + 1) / 2, (fine.rows() + 1) / 2);
-    for (int row = 0; row < coarse.rows(); ++row) {
-        for (int column = 0; column < coarse.columns(); ++column) {
-            double sum = 0;
-            int count = 0;
-            for (int y = 2 * row; y < std::min(2 * row + 2, fine.rows()); ++y) {
-                for (int x = 2 * column; x < std::min(2 * column + 2, fine.columns()); ++x) {
-                    if (const float H = fine.at(x, y); !std::isnan(H)) {
-                        sum += static_cast<double>(H);
-                        ++count;
-                    }
-                }
+/// Mean of the valid samples in [column, column + size) x [row, row + size) of the raster; NaN for none.
+float mean(const Raster<float>& samples, int column, int row, int size) {
+    double sum = 0;
+    int count = 0;
+    for (int y = row; y < std::min(row + size, samples.rows()); ++y) {
+        for (int x = column; x < std::min(column + size, samples.columns()); ++x) {
+            if (const float H = samples.at(x, y); !std::isnan(H)) {
+                sum += static_cast<double>(H);
+                ++count;
             }
-            coarse.at(column, row) = static_cast<float>(sum / count);  // 0 / 0: still a void
         }
     }
-    return coarse;
+    return count == 0 ? kVoid : static_cast<float>(sum / count);
 }
 
-/// Bilinear in the coarse raster at a sample of the fine one, whose samples lie a quarter cell off.
-float from_coarse(const Raster<float>& coarse, int column, int row) {
-    const auto neighbours = [](int fine, int size) {
-        const int near = fine / 2;
-        const int far = std::clamp(near + (fine % 2 == 0 ? -1 : 1), 0, size - 1);
-        return std::pair(near, far);
+bool is_void(float H) {
+    return std::isnan(H);
+}
+
+/// Bilinear in a raster of means at fine sample `column`, `row`, of which `size` a side make a mean.
+float between_means(const Raster<float>& means, int column, int row, int size) {
+    struct Part {
+        int near, far;
+        float share;  // of far
     };
-    const auto [x0, x1] = neighbours(column, coarse.columns());
-    const auto [y0, y1] = neighbours(row, coarse.rows());
-    return 0.75f * (0.75f * coarse.at(x0, y0) + 0.25f * coarse.at(x1, y0)) +
-           0.25f * (0.75f * coarse.at(x0, y1) + 0.25f * coarse.at(x1, y1));
+    const auto part = [size](int fine, int count) {
+        const int near = fine / size;
+        const float from_middle = (static_cast<float>(fine % size) + 0.5f) / static_cast<float>(size) - 0.5f;
+        const int far = std::clamp(near + (from_middle < 0 ? -1 : 1), 0, count - 1);
+        return Part{near, far, std::abs(from_middle)};
+    };
+    const Part x = part(column, means.columns());
+    const Part y = part(row, means.rows());
+    const auto along = [&](int r) {
+        return (1 - x.share) * means.at(x.near, r) + x.share * means.at(x.far, r);
+    };
+    return (1 - y.share) * along(y.near) + y.share * along(y.far);
 }
 
 /// Pull (means of ever larger squares) and push (voids take the interpolated mean of the next coarser level).
 /// \pre at least one sample is valid
-void fill_voids(Raster<float>& heights) {
-    if (!has_void(heights)) return;
-    Raster<float> coarse = half_size(heights);
+void fill_voids(Raster<float>& samples) {
+    if (std::none_of(samples.samples().begin(), samples.samples().end(), is_void)) return;
+    Raster<float> coarse((samples.columns() + 1) / 2, (samples.rows() + 1) / 2);
+    for (int row = 0; row < coarse.rows(); ++row) {
+        for (int column = 0; column < coarse.columns(); ++column)
+            coarse.at(column, row) = mean(samples, 2 * column, 2 * row, 2);
+    }
     fill_voids(coarse);
-    for (int row = 0; row < heights.rows(); ++row) {
-        for (int column = 0; column < heights.columns(); ++column) {
-            float& H = heights.at(column, row);
-            if (std::isnan(H)) H = from_coarse(coarse, column, row);
+    for (int row = 0; row < samples.rows(); ++row) {
+        for (int column = 0; column < samples.columns(); ++column) {
+            float& H = samples.at(column, row);
+            if (is_void(H)) H = between_means(coarse, column, row, 2);
         }
     }
 }
 
+int cells(int posts) {
+    return (posts + MeshHeights::kCell - 1) / MeshHeights::kCell;
+}
+
 }  // namespace
 
-Raster<float> mesh_heights(const geo::GridFrame& frame, const Raster<float>& heights) {
-    Raster<float> filled = heights;
-    const bool all_void = std::all_of(heights.samples().begin(), heights.samples().end(),
-                                      [](float H) { return std::isnan(H); });
-    if (all_void) {
-        std::fill(filled.samples().begin(), filled.samples().end(), 0.0f);
-    } else {
-        fill_voids(filled);
-    }
+MeshHeights::MeshHeights(const geo::GridFrame& frame)
+    : columns_(frame.columns),
+      rows_(frame.rows),
+      means_(cells(columns_), cells(rows_), kVoid),
+      lattice_(cells(columns_), cells(rows_), kVoid),
+      last_column_(static_cast<std::size_t>(rows_), kVoid),
+      last_row_(static_cast<std::size_t>(columns_), kVoid) {}
 
+void MeshHeights::add(int column, int row, const Raster<float>& heights) {
+    assert(column % kCell == 0 && row % kCell == 0);
+    for (int y = 0; y < heights.rows(); y += kCell) {
+        for (int x = 0; x < heights.columns(); x += kCell) {
+            means_.at((column + x) / kCell, (row + y) / kCell) = mean(heights, x, y, kCell);
+            lattice_.at((column + x) / kCell, (row + y) / kCell) = heights.at(x, y);
+        }
+    }
+    if (column + heights.columns() == columns_) {
+        for (int y = 0; y < heights.rows(); ++y)
+            last_column_[static_cast<std::size_t>(row + y)] = heights.at(heights.columns() - 1, y);
+    }
+    if (row + heights.rows() == rows_) {
+        std::copy_n(heights.row(heights.rows() - 1), heights.columns(), last_row_.begin() + column);
+    }
+}
+
+void MeshHeights::finish() {
+    if (std::all_of(means_.samples().begin(), means_.samples().end(), is_void)) {
+        std::fill(means_.samples().begin(), means_.samples().end(), 0.0f);
+    } else {
+        fill_voids(means_);
+    }
+}
+
+float MeshHeights::fill(int column, int row) const {
+    return between_means(means_, column, row, kCell);
+}
+
+float MeshHeights::padding(int column, int row) const {
+    const int c = std::min(column, columns_ - 1);
+    const int r = std::min(row, rows_ - 1);
+    const float H =
+        c < column ? last_column_[static_cast<std::size_t>(r)] : last_row_[static_cast<std::size_t>(c)];
+    return is_void(H) ? fill(c, r) : H;
+}
+
+float MeshHeights::lattice(int column, int row) const {
+    if (column >= columns_ || row >= rows_) return padding(column, row);
+    const float H = lattice_.at(column / kCell, row / kCell);
+    return is_void(H) ? fill(column, row) : H;
+}
+
+bool MeshHeights::lattice_is_valid(int column, int row) const {
+    return column < columns_ && row < rows_ && !is_void(lattice_.at(column / kCell, row / kCell));
+}
+
+Raster<float> mesh_heights(const geo::GridFrame& frame, const Raster<float>& heights) {
+    MeshHeights fill(frame);
+    fill.add(0, 0, heights);
+    fill.finish();
     const int side = frame.padded_side();
     Raster<float> padded(side, side);
     for (int row = 0; row < side; ++row) {
-        const float* from = filled.row(std::min(row, filled.rows() - 1));
         float* to = padded.row(row);
-        std::copy(from, from + filled.columns(), to);
-        std::fill(to + filled.columns(), to + side, from[filled.columns() - 1]);
+        int column = 0;
+        if (row < frame.rows) {
+            const float* from = heights.row(row);
+            for (; column < frame.columns; ++column)
+                to[column] = is_void(from[column]) ? fill.fill(column, row) : from[column];
+        }
+        for (; column < side; ++column) to[column] = fill.padding(column, row);
     }
     return padded;
 }

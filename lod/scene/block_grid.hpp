@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "lod/scene/raster.hpp"
 #include "lod/scene/scene_info.hpp"
 
 namespace relevo::lod {
@@ -45,5 +46,24 @@ struct BlockGrid {
                 bottom - block_row * side};
     }
 };
+
+/// The samples of a raster in a box, as far as the raster goes: smaller than the box, or empty, beyond its
+/// right and bottom edge.
+template <class T>
+Raster<T> part_of(const Raster<T>& raster, const BlockGrid::Box& box) {
+    Raster<T> part(std::clamp(raster.columns() - box.column, 0, box.columns),
+                   std::clamp(raster.rows() - box.row, 0, box.rows));
+    if (part.columns() == 0) return part;
+    for (int row = 0; row < part.rows(); ++row)
+        std::copy_n(raster.row(box.row + row) + box.column, part.columns(), part.row(row));
+    return part;
+}
+
+/// The inverse: puts samples into a raster, the first at the box's corner.
+template <class T>
+void paste(const Raster<T>& part, const BlockGrid::Box& box, Raster<T>& into) {
+    for (int row = 0; row < part.rows(); ++row)
+        std::copy_n(part.row(row), part.columns(), into.row(box.row + row) + box.column);
+}
 
 }  // namespace relevo::lod

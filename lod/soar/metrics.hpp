@@ -1,10 +1,9 @@
 #pragma once
 
-#include <functional>
-#include <optional>
-
 #include "geo/frame.hpp"
+#include "lod/scene/block_grid.hpp"
 #include "lod/scene/raster.hpp"
+#include "lod/soar/metric_tile.hpp"
 #include "lod/undulation_grid.hpp"
 
 namespace relevo::lod {
@@ -13,18 +12,46 @@ namespace relevo::lod {
 /// (docs/design.md): saturated, nested on the stored codes, rounded up.
 ///
 /// - bounded: largest distance in space, over the valid posts of the vertex's diamond, between the post and
-/// the mesh
-///   without the vertex, compared at the same grid coordinates;
+///   the mesh without the vertex, compared at the same grid coordinates;
 /// - incremental: distance of the vertex from the middle of the edge that it splits (Lindstrom & Pascucci).
 ///
+/// Work goes tile by tile (the blocks of BlockGrid::of_metrics), each from its own posts and a halo of
+/// MetricTile::kHalo around them, in any order. Fine vertices are finished with their tile; what a tile says
+/// of the coarse ones, which lie on the lattice of every 8th post, is a maximum that is joined in memory:
+/// 1/64 of the posts. So a grid of any size is read once.
+class MetricBuilder {
+  public:
+    enum class Errors { both, incremental };  ///< incremental alone is cheaper: no post is scanned
+
+    /// \pre the ground outlives this, its fill is finished
+    MetricBuilder(const MeshGround& ground, Errors errors);
+
+    /// Codes of the fine vertices of a tile (0 at posts of the lattice). May be called from several threads.
+    /// \param heights  H of the data in MetricTile::window_of(tile), void = NaN
+    MetricRasters add_tile(const BlockGrid::Box& tile, const Raster<float>& heights);
+
+    /// Codes of the lattice: at (i, j) those of post (8 i, 8 j). To be called once, after all tiles.
+    MetricRasters finish();
+
+  private:
+    void scan_coarse(const MetricTile& posts, const BlockGrid::Box& tile);
+    void join_scan(const MetricTile& posts, const BlockGrid::Box& box, const GridPoint& v,
+                   const Triangle& triangle);
+    void join_fine(const MetricTile& posts, const BlockGrid::Box& tile, const MetricRasters& fine);
+    void finish_vertex(const GridPoint& v, int level);
+    glm::dvec3 position(const GridPoint& lattice_point) const;
+
+    MeshGround ground_;
+    Errors errors_;
+    int levels_;
+    int lattice_levels_;  // of the hierarchy of the lattice, which is that of the grid without its fine
+                          // levels
+    MetricRasters lattice_;
+};
+
+/// The same for a grid in memory: the codes of the whole padded grid.
 /// \param heights  H of the data, metres, void = NaN
 MetricRasters build_metrics(const geo::GridFrame& frame, const UndulationGrid& undulations,
                             const Raster<float>& heights);
-
-/// The same; nothing where it was stopped on the way.
-/// \param go_on  called after each level with the part done, 0 to 1; says whether to go on
-std::optional<MetricRasters> build_metrics(const geo::GridFrame& frame, const UndulationGrid& undulations,
-                                           const Raster<float>& heights,
-                                           const std::function<bool(double)>& go_on);
 
 }  // namespace relevo::lod
