@@ -7,6 +7,7 @@
 
 #include "app/command.hpp"
 #include "lod/scene_check.hpp"
+#include "lod/soar/stored_metrics.hpp"
 
 namespace relevo::app {
 
@@ -44,7 +45,8 @@ Result<void> damaged(const CheckOptions& options, std::string what) {
 
 Result<void> check_files(const lod::Scene& scene, const CheckOptions& options, Json& report) {
     const std::vector<std::string> faults = scene.verify();
-    report["files"] = scene.info().heights.size() + scene.info().metrics.size() + 1;
+    const lod::SceneInfo& info = scene.info();
+    report["files"] = info.heights.size() + info.marks.size() + info.metrics.size() + info.lattice.size() + 1;
     report["damaged_files"] = faults;
     if (!options.json) {
         fmt::print("files: {}, damaged: {}\n", report["files"].dump(), faults.size());
@@ -56,7 +58,9 @@ Result<void> check_files(const lod::Scene& scene, const CheckOptions& options, J
 }
 
 Result<void> check_nesting(const lod::Scene& scene, const CheckOptions& options, Json& report) {
-    const auto metrics = scene.read_all_metrics();
+    const auto heights = scene.read_all_heights();
+    if (!heights) return heights.error();
+    const auto metrics = lod::load_metrics(scene, *heights);
     if (!metrics) return metrics.error();
     const std::uint64_t faults = lod::count_nesting_faults(scene.info().frame, *metrics);
     report["nesting_faults"] = faults;

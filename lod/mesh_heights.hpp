@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "geo/frame.hpp"
+#include "lod/scene/block_grid.hpp"
 #include "lod/scene/raster.hpp"
 
 namespace relevo::lod {
@@ -17,7 +18,7 @@ namespace relevo::lod {
 class MeshHeights {
   public:
     /// Posts a side of a mean, and between the posts whose heights are kept (the lattice).
-    static constexpr int kCell = 8;
+    static constexpr int kCell = BlockGrid::kLatticeSpacing;
 
     explicit MeshHeights(const geo::GridFrame& frame);
 

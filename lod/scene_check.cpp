@@ -5,8 +5,8 @@
 
 #include "lod/mesh_checks.hpp"
 #include "lod/oracle.hpp"
+#include "lod/scene/metric_code.hpp"
 #include "lod/soar/diamond.hpp"
-#include "lod/soar/metric_code.hpp"
 #include "lod/soar/refiner.hpp"
 
 namespace relevo::lod {

@@ -3,13 +3,14 @@
 #include <utility>
 
 #include "lod/mesh_heights.hpp"
+#include "lod/soar/stored_metrics.hpp"
 
 namespace relevo::lod {
 
 Result<Terrain> Terrain::load(const Scene& scene, ErrorMetric metric) {
     auto heights = scene.read_all_heights();
     if (!heights) return heights.error();
-    const auto metrics = scene.read_all_metrics();
+    const auto metrics = load_metrics(scene, *heights);
     if (!metrics) return metrics.error();
     return Terrain(scene.info().frame, scene.undulations(), *std::move(heights), *metrics, metric);
 }

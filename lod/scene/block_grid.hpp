@@ -35,6 +35,14 @@ struct BlockGrid {
         return {padded_side, padded_side, count, count};
     }
 
+    /// Posts a side of the cells between the posts of the lattice (soar/metrics.hpp).
+    static constexpr int kLatticeSpacing = 8;
+
+    /// Blocks of the metrics of the lattice: every 8th post of the padded grid, blocks likewise.
+    static BlockGrid of_lattice(int padded_side) {
+        return of_metrics((padded_side - 1) / kLatticeSpacing + 1);
+    }
+
     int count() const { return across * down; }
 
     Box box(int block_column, int block_row) const {

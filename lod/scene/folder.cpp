@@ -80,7 +80,17 @@ Result<std::vector<std::byte>> Folder::read(const std::string& file) const {
 }
 
 Result<void> Folder::write(const std::string& file, std::span<const std::byte> bytes) const {
-    const Descriptor descriptor = open_at(descriptor_.number(), file, O_WRONLY | O_CREAT | O_EXCL);
+    // Never into the old bytes: another name of theirs may be in use.
+    if (const auto removed = remove(file); !removed) return removed;
+    return write_to(file, O_EXCL, bytes);
+}
+
+Result<void> Folder::append(const std::string& file, std::span<const std::byte> bytes) const {
+    return write_to(file, O_APPEND, bytes);
+}
+
+Result<void> Folder::write_to(const std::string& file, int flags, std::span<const std::byte> bytes) const {
+    const Descriptor descriptor = open_at(descriptor_.number(), file, O_WRONLY | O_CREAT | flags);
     if (!descriptor) return cannot_write(path_ / file);
     while (!bytes.empty()) {
         const ssize_t count =
@@ -88,14 +98,29 @@ Result<void> Folder::write(const std::string& file, std::span<const std::byte> b
         if (count < 0) return cannot_write(path_ / file);
         bytes = bytes.subspan(static_cast<std::size_t>(count));
     }
-    if (retry_interrupted([&] { return ::fsync(descriptor.number()); }) != 0)
-        return cannot_write(path_ / file);
+    return {};
+}
+
+bool Folder::link(const std::string& file, const std::string& second) const {
+    const int folder = descriptor_.number();
+    return remove(second) && ::linkat(folder, file.c_str(), folder, second.c_str(), 0) == 0;
+}
+
+Result<void> Folder::remove(const std::string& file) const {
+    if (::unlinkat(descriptor_.number(), file.c_str(), 0) == 0 || errno == ENOENT) return {};
+    return cannot_write(path_ / file);
+}
+
+Result<void> Folder::remove_folder(const std::string& name) const {
+    std::error_code error;
+    std::filesystem::remove_all(path_ / name, error);
+    if (error) return cannot_write(path_ / name);
     return {};
 }
 
 Result<void> Folder::make_folder(const std::string& name) const {
-    if (::mkdirat(descriptor_.number(), name.c_str(), 0777) != 0) return cannot_write(path_ / name);
-    return {};
+    if (::mkdirat(descriptor_.number(), name.c_str(), 0777) == 0 || errno == EEXIST) return {};
+    return cannot_write(path_ / name);
 }
 
 Result<void> Folder::sync_all() const {

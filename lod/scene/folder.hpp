@@ -40,9 +40,23 @@ class Folder {
     /// A file's contents. `file` is relative to the folder. Fails with ErrorKind::damaged.
     Result<std::vector<std::byte>> read(const std::string& file) const;
 
-    /// Writes a new file; sync_all() brings it to the disk. Fails with ErrorKind::internal.
+    /// Writes a file, in place of one that had the name; sync_all() brings it to the disk. Fails with
+    /// ErrorKind::internal; as do all below.
     Result<void> write(const std::string& file, std::span<const std::byte> bytes) const;
 
+    /// Adds to the end of a file, which is made if need be.
+    Result<void> append(const std::string& file, std::span<const std::byte> bytes) const;
+
+    /// Gives a file a second name, in place of a file that had it; false where the file system cannot.
+    bool link(const std::string& file, const std::string& second) const;
+
+    /// Does nothing where there is no such file.
+    Result<void> remove(const std::string& file) const;
+
+    /// With all that is in it.
+    Result<void> remove_folder(const std::string& name) const;
+
+    /// Does nothing where it is there already.
     Result<void> make_folder(const std::string& name) const;
 
     /// Brings everything written so far on this file system to the disk, files and names. One call for
@@ -62,6 +76,8 @@ class Folder {
 
   private:
     Folder(std::filesystem::path path, Descriptor descriptor);
+
+    Result<void> write_to(const std::string& file, int flags, std::span<const std::byte> bytes) const;
 
     std::filesystem::path path_;
     Descriptor descriptor_;

@@ -17,10 +17,9 @@ class PostMark {
     PostMark() = default;
     explicit PostMark(std::uint16_t bits) : bits_(bits) {}
     PostMark(PostClass post_class, int source)
-        : bits_(static_cast<std::uint16_t>(static_cast<unsigned>(post_class) |
-                                           static_cast<unsigned>(source < kUnknownSource ? source
-                                                                                         : kUnknownSource)
-                                               << kSourceShift)) {}
+        : bits_(static_cast<std::uint16_t>(
+              static_cast<unsigned>(post_class) |
+              static_cast<unsigned>(source < kUnknownSource ? source : kUnknownSource) << kSourceShift)) {}
 
     PostClass post_class() const { return static_cast<PostClass>(bits_ & kClassBits); }
     bool is_void() const { return post_class() == PostClass::void_post; }

@@ -11,6 +11,7 @@
 #include "lod/scene/block_grid.hpp"
 #include "lod/scene/folder.hpp"
 #include "lod/scene/parallel_blocks.hpp"
+#include "lod/scene/post_block.hpp"
 #include "lod/scene/scene_files.hpp"
 #include "lod/scene/sha256.hpp"
 
@@ -26,31 +27,6 @@ const BlockInfo* find_block(const std::vector<BlockInfo>& blocks, int column, in
     };
     const auto found = std::lower_bound(blocks.begin(), blocks.end(), std::pair(row, column), before);
     return found != blocks.end() && found->row == row && found->column == column ? &*found : nullptr;
-}
-
-template <class T>
-void paste(const T* samples, const BlockGrid::Box& box, Raster<T>& into) {
-    for (int row = 0; row < box.rows; ++row) {
-        const T* from = samples + static_cast<std::ptrdiff_t>(row) * box.columns;
-        std::copy_n(from, box.columns, into.row(box.row + row) + box.column);
-    }
-}
-
-float height_from(std::int16_t sample) {
-    return sample == kVoidInt16 ? kVoid : static_cast<float>(sample);
-}
-float height_from(float sample) {
-    return sample;
-}
-
-template <class T>
-Result<Raster<float>> decode_heights(std::span<const std::byte> bytes, const BlockGrid::Box& box,
-                                     const std::string& name) {
-    const Result<std::vector<T>> samples = decode_block<T>(bytes, {box.columns, box.rows}, name);
-    if (!samples) return samples.error();
-    Raster<float> heights(box.columns, box.rows);
-    std::ranges::transform(*samples, heights.samples().begin(), [](T sample) { return height_from(sample); });
-    return heights;
 }
 
 Error damaged(const std::filesystem::path& path, const std::string& what) {
@@ -133,17 +109,19 @@ Result<std::vector<std::byte>> Scene::read_block(const BlockInfo& block) const {
     return bytes;
 }
 
+Result<std::vector<std::byte>> Scene::read_block(const std::vector<BlockInfo>& layer, int column,
+                                                 int row) const {
+    const BlockInfo* block = find_block(layer, column, row);
+    if (block == nullptr) return std::vector<std::byte>{};
+    return read_block(*block);
+}
+
 Result<Raster<float>> Scene::read_heights(int block_column, int block_row) const {
     const BlockGrid grid = BlockGrid::of_heights(info_.frame.columns, info_.frame.rows);
-    const BlockGrid::Box box = grid.box(block_column, block_row);
-    const BlockInfo* block = find_block(info_.heights, block_column, block_row);
-    if (block == nullptr) return Raster<float>(box.columns, box.rows, kVoid);
-
-    const Result<std::vector<std::byte>> bytes = read_block(*block);
+    const auto bytes = read_block(info_.heights, block_column, block_row);
     if (!bytes) return bytes.error();
-    const std::string name = (path_ / block->file).string();
-    return info_.height_type == HeightType::int16 ? decode_heights<std::int16_t>(*bytes, box, name)
-                                                  : decode_heights<float>(*bytes, box, name);
+    return decode_heights(*bytes, info_.height_type, grid.box(block_column, block_row),
+                          name_of(kHeightsFolder, block_column, block_row));
 }
 
 Result<Raster<float>> Scene::read_all_heights() const {
@@ -154,42 +132,59 @@ Result<Raster<float>> Scene::read_all_heights() const {
             const BlockInfo& block = info_.heights[static_cast<std::size_t>(i)];
             const Result<Raster<float>> part = read_heights(block.column, block.row);
             if (!part) return part.error();
-            paste(part->samples().data(), grid.box(block.column, block.row), heights);
+            paste(*part, grid.box(block.column, block.row), heights);
             return {};
         });
     if (!done) return done.error();
     return heights;
 }
 
-Result<MetricRasters> Scene::read_all_metrics() const {
-    const int side = info_.frame.padded_side();
-    const BlockGrid grid = BlockGrid::of_metrics(side);
-    MetricRasters metrics{Raster<std::uint16_t>(side, side), Raster<std::uint16_t>(side, side),
-                          Raster<std::uint16_t>(side, side)};
+Result<Raster<PostMark>> Scene::read_marks(int block_column, int block_row,
+                                           const Raster<float>& heights) const {
+    const auto bytes = read_block(info_.marks, block_column, block_row);
+    if (!bytes) return bytes.error();
+    return decode_marks(*bytes, heights, name_of(kMarksFolder, block_column, block_row));
+}
+
+Result<MetricRasters> Scene::read_metrics(int block_column, int block_row) const {
+    const BlockGrid::Box box = BlockGrid::of_metrics(info_.frame.padded_side()).box(block_column, block_row);
+    const auto bytes = read_block(info_.metrics, block_column, block_row);
+    if (!bytes) return bytes.error();
+    return decode_metrics(*bytes, (box.columns + 1) / 2, (box.rows + 1) / 2,
+                          name_of(kMetricsFolder, block_column, block_row));
+}
+
+Result<MetricRasters> Scene::read_lattice() const {
+    const BlockGrid grid = BlockGrid::of_lattice(info_.frame.padded_side());
+    MetricRasters lattice{Raster<std::uint16_t>(grid.columns, grid.rows),
+                          Raster<std::uint16_t>(grid.columns, grid.rows),
+                          Raster<std::uint16_t>(grid.columns, grid.rows)};
     const Result<void> done =
-        for_each_block(static_cast<int>(info_.metrics.size()), [&](int i) -> Result<void> {
-            const BlockInfo& block = info_.metrics[static_cast<std::size_t>(i)];
-            const Result<std::vector<std::byte>> bytes = read_block(block);
+        for_each_block(static_cast<int>(info_.lattice.size()), [&](int i) -> Result<void> {
+            const BlockInfo& block = info_.lattice[static_cast<std::size_t>(i)];
+            const auto bytes = read_block(block);
             if (!bytes) return bytes.error();
             const BlockGrid::Box box = grid.box(block.column, block.row);
-            const BlockShape shape{box.columns, box.rows, 3};
-            const Result<std::vector<std::uint16_t>> samples =
-                decode_block<std::uint16_t>(*bytes, shape, (path_ / block.file).string());
-            if (!samples) return samples.error();
-            const std::size_t band = shape.samples() / 3;
-            paste(samples->data(), box, metrics.bounded);
-            paste(samples->data() + band, box, metrics.incremental);
-            paste(samples->data() + 2 * band, box, metrics.radius);
+            const auto codes = decode_metrics(*bytes, box.columns, box.rows, (path_ / block.file).string());
+            if (!codes) return codes.error();
+            paste(codes->bounded, box, lattice.bounded);
+            paste(codes->incremental, box, lattice.incremental);
+            paste(codes->radius, box, lattice.radius);
             return {};
         });
     if (!done) return done.error();
-    return metrics;
+    return lattice;
+}
+
+std::string Scene::name_of(const char* layer, int block_column, int block_row) const {
+    return (path_ / block_file_name(layer, block_column, block_row)).string();
 }
 
 std::vector<std::string> Scene::verify() const {
     std::vector<const BlockInfo*> blocks;
-    for (const BlockInfo& block : info_.heights) blocks.push_back(&block);
-    for (const BlockInfo& block : info_.metrics) blocks.push_back(&block);
+    for (const auto* layer : {&info_.heights, &info_.marks, &info_.metrics, &info_.lattice}) {
+        for (const BlockInfo& block : *layer) blocks.push_back(&block);
+    }
     if (!info_.undulation.file.empty()) blocks.push_back(&info_.undulation);
 
     std::vector<std::string> messages(blocks.size() + 1);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geo/result.hpp"
+#include "lod/scene/post_mark.hpp"
 #include "lod/scene/raster.hpp"
 #include "lod/scene/scene_info.hpp"
 #include "lod/undulation_grid.hpp"
@@ -36,8 +37,15 @@ class Scene {
     /// All heights of the data, void = NaN.
     Result<Raster<float>> read_all_heights() const;
 
-    /// The metric codes of the padded grid (soar/metrics.hpp); blocks that are not stored are 0.
-    Result<MetricRasters> read_all_metrics() const;
+    /// Marks of one block; those of voids say void. \param heights  as read_heights gave them
+    Result<Raster<PostMark>> read_marks(int block_column, int block_row, const Raster<float>& heights) const;
+
+    /// Metric codes of a block of BlockGrid::of_metrics, every 2nd post: without the last level's vertices,
+    /// which follow from the heights (soar/stored_metrics.hpp), and 0 at posts of the lattice.
+    Result<MetricRasters> read_metrics(int block_column, int block_row) const;
+
+    /// Metric codes of the whole lattice: every 8th post of the padded grid.
+    Result<MetricRasters> read_lattice() const;
 
     /// Reads every file and compares it with its checksum; the messages name each damaged block. Empty: all
     /// is well.
@@ -47,6 +55,9 @@ class Scene {
     Scene() = default;
 
     Result<std::vector<std::byte>> read_block(const BlockInfo& block) const;
+    /// Empty where the layer does not store the block.
+    Result<std::vector<std::byte>> read_block(const std::vector<BlockInfo>& layer, int column, int row) const;
+    std::string name_of(const char* layer, int block_column, int block_row) const;
 
     std::filesystem::path path_;
     std::shared_ptr<const Folder> folder_;

@@ -11,7 +11,9 @@ namespace relevo::lod {
 inline constexpr const char* kSceneFile = "scene.json";
 inline constexpr const char* kMosaicFile = "heights.vrt";
 inline constexpr const char* kHeightsFolder = "heights";
+inline constexpr const char* kMarksFolder = "marks";
 inline constexpr const char* kMetricsFolder = "metrics";
+inline constexpr const char* kLatticeFolder = "lattice";
 inline constexpr const char* kUndulationFile = "undulation.tif";
 
 /// "heights/r0000-c0001.tif": the only name that a block may have.

@@ -9,6 +9,7 @@
 
 #include "lod/scene/block_grid.hpp"
 #include "lod/scene/json_fields.hpp"
+#include "lod/scene/post_mark.hpp"
 #include "lod/scene/scene_files.hpp"
 
 namespace relevo::lod {
@@ -51,6 +52,47 @@ SourceInfo source_from(JsonFields& fields) {
     source.operation_note = fields.text("operation_note");
     source.notes = fields.text("notes");
     return source;
+}
+
+nlohmann::json to_json(const SeamInfo& seam) {
+    return {{"first", seam.first},
+            {"second", seam.second},
+            {"pairs", seam.pairs},
+            {"max_step_m", seam.max_step_m},
+            {"rms_step_m", seam.rms_step_m}};
+}
+
+SeamInfo seam_from(JsonFields& fields) {
+    SeamInfo seam;
+    seam.first = fields.integer("first", 0, PostMark::kUnknownSource);
+    seam.second = fields.integer("second", 0, PostMark::kUnknownSource);
+    seam.pairs = fields.count("pairs");
+    seam.max_step_m = fields.number("max_step_m", 0, 2 * kMaxHeight);
+    seam.rms_step_m = fields.number("rms_step_m", 0, 2 * kMaxHeight);
+    return seam;
+}
+
+nlohmann::json to_json(const OutlierInfo& outlier) {
+    return {{"column", outlier.column},
+            {"row", outlier.row},
+            {"H_m", outlier.H_m},
+            {"median_m", outlier.median_m}};
+}
+
+OutlierInfo outlier_from(JsonFields& fields) {
+    OutlierInfo outlier;
+    outlier.column = fields.integer("column", 0, kMaxSide);
+    outlier.row = fields.integer("row", 0, kMaxSide);
+    outlier.H_m = fields.number("H_m", -kMaxHeight, kMaxHeight);
+    outlier.median_m = fields.number("median_m", -kMaxHeight, kMaxHeight);
+    return outlier;
+}
+
+template <class T>
+nlohmann::json list_to_json(const std::vector<T>& values) {
+    nlohmann::json json = nlohmann::json::array();
+    for (const T& value : values) json.push_back(to_json(value));
+    return json;
 }
 
 nlohmann::json file_to_json(const BlockInfo& block) {
@@ -178,6 +220,12 @@ void read_statistics(JsonFields& fields, SceneInfo& info) {
     info.void_posts = fields.count("void_posts", posts);
     if (info.valid_posts + info.void_posts != posts)
         fields.wrong("void_posts", "does not add up with valid_posts");
+    info.sea_posts = fields.count("sea_posts", info.valid_posts);
+    info.filled_posts = fields.count("filled_posts", info.valid_posts);
+    info.modelled_posts = fields.count("modelled_posts", info.sea_posts);
+    info.outlier_posts = fields.count("outlier_posts", info.valid_posts);
+    fields.each("outliers", [&](JsonFields& one) { info.outliers.push_back(outlier_from(one)); });
+    fields.each("seams", [&](JsonFields& one) { info.seams.push_back(seam_from(one)); });
     info.bilinear_mesh_max_m = fields.number("bilinear_mesh_max_m", 0, 2 * kMaxHeight);
     info.resampling = resampling_from(fields.object("resampling"), info.resampling_method);
 }
@@ -185,7 +233,11 @@ void read_statistics(JsonFields& fields, SceneInfo& info) {
 void read_files(JsonFields& fields, SceneInfo& info) {
     const BlockGrid heights = BlockGrid::of_heights(info.frame.columns, info.frame.rows);
     info.heights = blocks_from(fields, kHeightsFolder, heights);
-    info.metrics = blocks_from(fields, kMetricsFolder, BlockGrid::of_metrics(info.frame.padded_side()));
+    info.marks = blocks_from(fields, kMarksFolder, heights);
+    info.bounded_errors = fields.flag("bounded_errors");
+    const int side = info.frame.padded_side();
+    info.metrics = blocks_from(fields, kMetricsFolder, BlockGrid::of_metrics(side));
+    info.lattice = blocks_from(fields, kLatticeFolder, BlockGrid::of_lattice(side));
     if (!fields.is_null("undulation")) {
         JsonFields undulation = fields.object("undulation");
         info.undulation = block_from(undulation, kUndulationFile);
@@ -197,8 +249,10 @@ void read_files(JsonFields& fields, SceneInfo& info) {
 
 std::uint64_t SceneInfo::bytes() const {
     const auto add = [](std::uint64_t sum, const BlockInfo& block) { return sum + block.bytes; };
-    const std::uint64_t all_heights = std::accumulate(heights.begin(), heights.end(), undulation.bytes, add);
-    return std::accumulate(metrics.begin(), metrics.end(), all_heights, add);
+    std::uint64_t sum = undulation.bytes;
+    for (const auto* layer : {&heights, &marks, &metrics, &lattice})
+        sum = std::accumulate(layer->begin(), layer->end(), sum, add);
+    return sum;
 }
 
 const char* to_string(VerticalDatum datum) {
@@ -242,10 +296,17 @@ nlohmann::json to_json(const SceneInfo& info) {
             {"vertical_name", info.vertical.name},
             {"vertical_assumed", info.vertical.assumed},
             {"height_type", to_string(info.height_type)},
+            {"max_height_error_m", info.max_height_error_m},
             {"height_min_m", info.height_min_m},
             {"height_max_m", info.height_max_m},
             {"valid_posts", info.valid_posts},
             {"void_posts", info.void_posts},
+            {"sea_posts", info.sea_posts},
+            {"filled_posts", info.filled_posts},
+            {"modelled_posts", info.modelled_posts},
+            {"outlier_posts", info.outlier_posts},
+            {"outliers", list_to_json(info.outliers)},
+            {"seams", list_to_json(info.seams)},
             {"bilinear_mesh_max_m", info.bilinear_mesh_max_m},
             {"resampling",
              {{"method", info.resampling_method},
@@ -256,7 +317,10 @@ nlohmann::json to_json(const SceneInfo& info) {
             {"sources", std::move(sources)},
             {"block_side", SceneInfo::kBlockSide},
             {"heights", to_json(info.heights)},
+            {"marks", to_json(info.marks)},
+            {"bounded_errors", info.bounded_errors},
             {"metrics", to_json(info.metrics)},
+            {"lattice", to_json(info.lattice)},
             {"undulation", info.undulation.file.empty() ? nlohmann::json() : file_to_json(info.undulation)}};
 }
 
@@ -270,7 +334,11 @@ Result<SceneInfo> scene_info_from_json(const nlohmann::json& json) {
             fmt::format("it has format version {}, and this Relevo reads up to {}: use a newer Relevo",
                         version, SceneInfo::kFormatVersion)};
     }
-    if (version == 0) fields.wrong("format_version", "is unknown");
+    if (problem.empty() && version > 0 && version < static_cast<std::uint64_t>(SceneInfo::kFormatVersion)) {
+        return Error{
+            ErrorKind::input,
+            fmt::format("it has format version {}, of an older Relevo: import its sources again", version)};
+    }
 
     SceneInfo info;
     info.frame = frame_from(fields.object("frame"));
@@ -279,6 +347,7 @@ Result<SceneInfo> scene_info_from_json(const nlohmann::json& json) {
     info.vertical.name = fields.text("vertical_name");
     info.vertical.assumed = fields.flag("vertical_assumed");
     info.height_type = named(fields, "height_type", {HeightType::int16, HeightType::float32});
+    info.max_height_error_m = fields.number("max_height_error_m", 0, kMaxHeight);
     fields.integer("block_side", SceneInfo::kBlockSide, SceneInfo::kBlockSide);
     if (problem.empty()) read_statistics(fields, info);
     fields.each("sources", [&](JsonFields& source) { info.sources.push_back(source_from(source)); });

@@ -57,6 +57,23 @@ struct ResamplingError {
     std::uint64_t lost_posts = 0;  ///< valid source posts where the scene has a void or nothing
 };
 
+/// Where two sources meet: posts of one beside posts of the other.
+struct SeamInfo {
+    int first = 0;  ///< indices in SceneInfo::sources, first < second
+    int second = 0;
+    std::uint64_t pairs = 0;  ///< of neighbouring posts across the seam
+    double max_step_m = 0;    ///< largest difference of height in such a pair
+    double rms_step_m = 0;
+};
+
+/// A post far from the median of the 5 x 5 posts around it.
+struct OutlierInfo {
+    int column = 0;
+    int row = 0;
+    double H_m = 0;
+    double median_m = 0;
+};
+
 /// A data file of the scene: one block of one layer.
 struct BlockInfo {
     int column = 0;  ///< of the block, in blocks
@@ -68,17 +85,25 @@ struct BlockInfo {
 
 /// What scene.json says.
 struct SceneInfo {
-    static constexpr int kFormatVersion = 1;
+    static constexpr int kFormatVersion = 2;
     static constexpr int kBlockSide = 512;  ///< posts a side of a block; blocks of heights do not overlap
 
     geo::GridFrame frame;
     VerticalReference vertical;
     HeightType height_type = HeightType::float32;
+    double max_height_error_m = 0;  ///< by which storing heights with loss (LERC) may have changed them
 
     double height_min_m = 0;
     double height_max_m = 0;
     std::uint64_t valid_posts = 0;
     std::uint64_t void_posts = 0;
+    std::uint64_t sea_posts = 0;       ///< of the valid ones; as are the next two
+    std::uint64_t filled_posts = 0;    ///< interpolated over a void
+    std::uint64_t modelled_posts = 0;  ///< of a sea bed that no source knows
+    std::uint64_t outlier_posts = 0;
+    std::vector<OutlierInfo> outliers;  ///< the largest, at most kOutliersKept
+    static constexpr std::size_t kOutliersKept = 20;
+    std::vector<SeamInfo> seams;
 
     /// Largest difference between bilinear heights (measuring) and the triangles of the full mesh (drawing),
     /// metres.
@@ -88,7 +113,10 @@ struct SceneInfo {
 
     std::vector<SourceInfo> sources;
     std::vector<BlockInfo> heights;
+    std::vector<BlockInfo> marks;
+    bool bounded_errors = true;  ///< else the metrics hold the incremental error alone
     std::vector<BlockInfo> metrics;
+    std::vector<BlockInfo> lattice;
     BlockInfo undulation;  ///< the one file of the coarse geoid grid
 
     std::uint64_t bytes() const;  ///< of all data files

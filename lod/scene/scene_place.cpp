@@ -4,9 +4,12 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <optional>
+#include <span>
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -21,6 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kJobFile = "job";
+
 std::string hidden_name(const fs::path& target, std::string_view what) {
     return fmt::format(".{}.{}", target.filename().string(), what);
 }
@@ -32,7 +37,8 @@ fs::path lock_file(const fs::path& target) {
 /// Nothing of somebody else's is ever deleted: a scene has scene.json, and nothing but a scene's files and
 /// what GDAL and QGIS leave beside a raster.
 bool holds_only_a_scene(const fs::path& folder) {
-    constexpr std::array<std::string_view, 5> kNames{kSceneFile, kMosaicFile, kHeightsFolder, kMetricsFolder,
+    constexpr std::array<std::string_view, 7> kNames{kSceneFile,     kMosaicFile,    kHeightsFolder,
+                                                     kMarksFolder,   kMetricsFolder, kLatticeFolder,
                                                      kUndulationFile};
     std::error_code error;
     if (!fs::is_regular_file(folder / kSceneFile, error)) return false;
@@ -100,7 +106,7 @@ void remove_unless_read(const fs::path& path) {
 }
 
 /// \pre the place is locked: then no folder of this kind belongs to a living writer
-void sweep(const fs::path& target) {
+std::vector<fs::path> left_behind(const fs::path& target) {
     const std::string prefix = hidden_name(target, "partial-");
     std::error_code error;
     std::vector<fs::path> found;
@@ -108,7 +114,20 @@ void sweep(const fs::path& target) {
          it.increment(error)) {
         if (it->path().filename().string().starts_with(prefix)) found.push_back(it->path());
     }
-    for (const fs::path& path : found) remove_unless_read(path);
+    return found;
+}
+
+/// A folder in which a writer has begun the same job; nothing where there is none.
+std::optional<Folder> begun(const std::vector<fs::path>& folders, const std::string& job) {
+    if (job.empty()) return std::nullopt;
+    for (const fs::path& path : folders) {
+        Result<Folder> folder = Folder::open(path);
+        if (!folder || folder->in_use()) continue;
+        const auto bytes = folder->read(kJobFile);
+        if (bytes && std::string_view(reinterpret_cast<const char*>(bytes->data()), bytes->size()) == job)
+            return std::move(*folder);
+    }
+    return std::nullopt;
 }
 
 Result<Folder> make_partial(const fs::path& target) {
@@ -135,27 +154,30 @@ int rename_with(const fs::path& from, const fs::path& to, unsigned int flags) {
 
 }  // namespace
 
-ScenePlace::ScenePlace(fs::path target, bool overwrite, Descriptor lock, Folder partial)
+ScenePlace::ScenePlace(fs::path target, bool overwrite, Descriptor lock, Folder partial, bool resumed)
     : target_(std::move(target)),
       overwrite_(overwrite),
       lock_(std::move(lock)),
-      partial_(std::move(partial)) {}
+      partial_(std::move(partial)),
+      resumed_(resumed) {}
 
 ScenePlace::ScenePlace(ScenePlace&& other) noexcept
     : target_(std::move(other.target_)),
       overwrite_(other.overwrite_),
       lock_(std::move(other.lock_)),
       partial_(std::move(other.partial_)),
+      resumed_(other.resumed_),
+      keep_(other.keep_),
       owner_(std::exchange(other.owner_, false)) {}
 
 ScenePlace::~ScenePlace() {
     if (!owner_) return;
-    remove_unless_read(partial_.path());
+    if (!keep_) remove_unless_read(partial_.path());
     std::error_code ignored;
     fs::remove(lock_file(target_), ignored);  // while it is locked: see has_name
 }
 
-Result<ScenePlace> ScenePlace::claim(const fs::path& path, bool overwrite) {
+Result<ScenePlace> ScenePlace::claim(const fs::path& path, const SceneClaim& claim) {
     std::error_code error;
     fs::path target =
         fs::weakly_canonical(path, error);  // a link to a scene: the scene is replaced, not the link
@@ -167,13 +189,26 @@ Result<ScenePlace> ScenePlace::claim(const fs::path& path, bool overwrite) {
         return Error{ErrorKind::usage,
                      fmt::format("there is no folder {} to put the scene in", target.parent_path().string())};
     }
-    if (const Result<void> free = check_free(target, overwrite); !free) return free.error();
+    if (const Result<void> free = check_free(target, claim.overwrite); !free) return free.error();
     Result<Descriptor> lock = take_lock(target);
     if (!lock) return lock.error();
-    sweep(target);
+    const std::vector<fs::path> old = left_behind(target);
+    std::optional<Folder> mine = claim.resume ? begun(old, claim.job) : std::nullopt;
+    for (const fs::path& folder : old) {
+        if (!mine || folder != mine->path()) remove_unless_read(folder);
+    }
+    if (mine) return ScenePlace(std::move(target), claim.overwrite, std::move(*lock), std::move(*mine), true);
     Result<Folder> partial = make_partial(target);
     if (!partial) return partial.error();
-    return ScenePlace(std::move(target), overwrite, std::move(*lock), std::move(*partial));
+    if (!claim.job.empty()) {
+        if (auto done = partial->write(kJobFile, std::as_bytes(std::span(claim.job))); !done)
+            return done.error();
+    }
+    return ScenePlace(std::move(target), claim.overwrite, std::move(*lock), std::move(*partial), false);
+}
+
+Result<void> ScenePlace::forget_job() {
+    return partial_.remove(kJobFile);
 }
 
 Result<void> ScenePlace::take() {
@@ -186,6 +221,7 @@ Result<void> ScenePlace::take() {
     Result<Folder> parent = Folder::open(target_.parent_path());
     if (!parent) return parent.error();
     // From here on the hidden name, if there still is something, is the scene that was replaced.
+    keep_ = false;
     return parent->sync_names();
 }
 

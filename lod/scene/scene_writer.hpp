@@ -2,35 +2,47 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "geo/result.hpp"
-#include "lod/scene/raster.hpp"
+#include "lod/scene/draft_posts.hpp"
 #include "lod/scene/scene_info.hpp"
+#include "lod/scene/scene_place.hpp"
 #include "lod/undulation_grid.hpp"
 
 namespace relevo::lod {
 
-/// Writes a scene beside its place and puts it there in one step when it is whole; destroyed before that, it
-/// leaves nothing behind. Only one writer a scene at a time.
+/// Writes a scene beside its place, block by block, and puts it there in one step when it is whole; destroyed
+/// before that, it leaves nothing behind unless it was told to keep what it has. Only one writer a scene at a
+/// time.
 class SceneWriter {
   public:
-    /// Fails where the place is taken (unless overwrite; only a scene is ever overwritten), locked by another
-    /// writer, or cannot be written.
-    static Result<SceneWriter> create(const std::filesystem::path& path, bool overwrite);
+    /// Fails where the place is taken (unless the claim says overwrite; only a scene is ever overwritten),
+    /// locked by another writer, or cannot be written.
+    static Result<SceneWriter> create(const std::filesystem::path& path, const SceneClaim& claim);
     SceneWriter(SceneWriter&&) noexcept;
     SceneWriter& operator=(SceneWriter&&) noexcept;
     ~SceneWriter();
 
-    /// Heights H of the whole data, metres, void = NaN; stored as `type`, which must hold them exactly.
-    Result<void> write_heights(const Raster<float>& heights, HeightType type, const geo::GridFrame& frame);
+    /// Does it go on from what an earlier writer has left?
+    bool resumed() const;
 
-    /// Metric codes of the padded grid. Blocks of nothing but zeros cost no disk.
-    Result<void> write_metrics(const MetricRasters& metrics);
+    /// From here on, what is finished stays on disk for a writer that resumes, if this one ends early.
+    void keep_for_resume();
+
+    /// The heights and marks of the scene.
+    Result<DraftPosts> posts(const geo::GridFrame& frame, const HeightCoding& coding,
+                             std::uint64_t cache_bytes) const;
+    /// Those of a step on the way to them. \param name  of its folders; the writer deletes them at last
+    Result<DraftPosts> draft(const std::string& name, const geo::GridFrame& frame, const HeightCoding& coding,
+                             std::uint64_t cache_bytes) const;
+    /// Another layer: kMetricsFolder or kLatticeFolder.
+    Result<BlockStore> layer(const char* name) const;
 
     Result<void> write_undulations(const UndulationGrid& undulations);
 
-    /// Writes scene.json (block lists are filled in here), syncs everything to disk, and puts the scene in
-    /// its place.
+    /// Writes scene.json (block lists are filled in here, from the layers' journals), syncs everything to
+    /// disk, and puts the scene in its place.
     Result<void> commit(SceneInfo info);
 
   private:

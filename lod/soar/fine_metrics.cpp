@@ -5,7 +5,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "lod/soar/metric_code.hpp"
+#include "lod/scene/metric_code.hpp"
 
 namespace relevo::lod {
 

@@ -96,11 +96,11 @@ using FourAnywhere = double __attribute__((vector_size(32), aligned(8), may_alia
 
 }  // namespace
 
-BlockGrid::Box MetricTile::window_of(const Box& tile, int padded_side) {
-    const int left = std::max(tile.column - kHalo, 0);
-    const int top = std::max(tile.row - kHalo, 0);
-    const int right = std::min(tile.column + tile.columns + kHalo, padded_side);
-    const int bottom = std::min(tile.row + tile.rows + kHalo, padded_side);
+BlockGrid::Box MetricTile::window_of(const Box& tile, int padded_side, int halo) {
+    const int left = std::max(tile.column - halo, 0);
+    const int top = std::max(tile.row - halo, 0);
+    const int right = std::min(tile.column + tile.columns + halo, padded_side);
+    const int bottom = std::min(tile.row + tile.rows + halo, padded_side);
     return {left, top, right - left, bottom - top};
 }
 

@@ -52,7 +52,7 @@ class MetricTile {
     static constexpr int kHalo = 12;
 
     /// The tile with its halo, cut at the grid's border.
-    static Box window_of(const Box& tile, int padded_side);
+    static Box window_of(const Box& tile, int padded_side, int halo = kHalo);
 
     /// \param heights  H of the data in the window (at most: data ends where the frame's columns and rows
     /// do), void = NaN

@@ -8,8 +8,8 @@
 #include <tbb/parallel_for.h>
 
 #include "geo/post_positions.hpp"
+#include "lod/scene/metric_code.hpp"
 #include "lod/soar/fine_metrics.hpp"
-#include "lod/soar/metric_code.hpp"
 
 namespace relevo::lod {
 

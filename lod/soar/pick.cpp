@@ -5,8 +5,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "lod/scene/metric_code.hpp"
 #include "lod/soar/cell.hpp"
-#include "lod/soar/metric_code.hpp"
 
 namespace relevo::lod {
 

@@ -6,8 +6,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "lod/scene/metric_code.hpp"
 #include "lod/soar/diamond.hpp"
-#include "lod/soar/metric_code.hpp"
 
 namespace relevo::lod {
 

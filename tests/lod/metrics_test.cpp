@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "lod/mesh_heights.hpp"
+#include "lod/scene/metric_code.hpp"
 #include "lod/soar/diamond.hpp"
-#include "lod/soar/metric_code.hpp"
 #include "tests/lod/synthetic_terrain.hpp"
 
 namespace relevo::lod {

@@ -19,8 +19,15 @@ using lod::Scene;
 Result<void> read_all(const fs::path& path) {
     const auto scene = Scene::open(path);
     if (!scene) return scene.error();
-    if (const auto heights = scene->read_all_heights(); !heights) return heights.error();
-    if (const auto metrics = scene->read_all_metrics(); !metrics) return metrics.error();
+    const auto heights = scene->read_all_heights();
+    if (!heights) return heights.error();
+    for (const lod::BlockInfo& block : scene->info().marks) {
+        const auto box =
+            lod::BlockGrid::of_heights(heights->columns(), heights->rows()).box(block.column, block.row);
+        const auto marks = scene->read_marks(block.column, block.row, lod::part_of(*heights, box));
+        if (!marks) return marks.error();
+    }
+    if (const auto metrics = lod::load_metrics(*scene, *heights); !metrics) return metrics.error();
     return {};
 }
 
@@ -32,7 +39,13 @@ void expect_error(const Result<void>& result, ErrorKind kind, const std::string&
 
 class SceneDamage : public testing::Test {
   protected:
-    void SetUp() override { ASSERT_TRUE(write_scene(made_up_scene(600, 40), path_)); }
+    void SetUp() override {
+        SceneParts parts = made_up_scene(600, 40);
+        parts.marks = lod::plain_marks(parts.heights);
+        parts.marks.at(0, 0).set_class(lod::PostClass::sea);
+        parts.marks.at(599, 0).set_class(lod::PostClass::sea);
+        ASSERT_TRUE(write_scene(parts, path_));
+    }
 
     SceneFolder folder_;
     fs::path path_ = folder_ / "a.relevo";
@@ -56,7 +69,8 @@ TEST_F(SceneDamage, EveryBlockMissingIsNamed) {
     std::vector<std::string> files;
     for (const auto& [name, text] : all_files(path_)) files.push_back(name);
     ASSERT_EQ(files.size(),
-              2U + 1 + 1 + 3);  // 2 blocks of heights, 1 of metrics, the grid, the JSON, the VRT
+              2U + 2 + 2 + 1 + 3);  // 2 blocks each of heights, marks and metrics, the lattice, the
+                                    // geoid, the JSON, the VRT
     for (const std::string& file : files) {
         if (file == "heights.vrt" || file == "scene.json") continue;
         const std::string text = contents(path_ / file);

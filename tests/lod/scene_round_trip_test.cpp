@@ -32,7 +32,7 @@ TEST_P(SceneShapes, ComeBackBitByBit) {
         const auto heights = scene->read_all_heights();
         ASSERT_TRUE(heights) << heights.error().message;
         EXPECT_TRUE(same_bits(*heights, parts.heights));
-        const auto metrics = scene->read_all_metrics();
+        const auto metrics = lod::load_metrics(*scene, *heights);
         ASSERT_TRUE(metrics) << metrics.error().message;
         EXPECT_EQ(metrics->bounded.samples(), parts.metrics.bounded.samples());
         EXPECT_EQ(metrics->incremental.samples(), parts.metrics.incremental.samples());
@@ -76,20 +76,18 @@ TEST(SceneRoundTrip, BlocksOfVoidsAndOfZeroMetricsCostNothing) {
     parts.info.valid_posts = 1;
     parts.info.void_posts = 1025 * 1025 - 1;
     std::ranges::fill(parts.heights.samples(), std::numeric_limits<float>::quiet_NaN());
-    for (auto* raster : {&parts.metrics.bounded, &parts.metrics.incremental, &parts.metrics.radius}) {
-        std::ranges::fill(raster->samples(), std::uint16_t{0});
-    }
     parts.heights.at(1024, 3) = 12;
-    parts.metrics.radius.at(3, 1024) = 12;
+    parts.metrics = lod::build_metrics(parts.info.frame, parts.undulations, parts.heights);
     ASSERT_TRUE(write_scene(parts, folder / "a.relevo"));
     const auto scene = Scene::open(folder / "a.relevo");
     ASSERT_TRUE(scene) << scene.error().message;
     EXPECT_EQ(scene->info().heights.size(), 1U);
     EXPECT_EQ(scene->info().metrics.size(), 1U);
+    EXPECT_EQ(scene->info().marks.size(), 0U);
     const auto heights = scene->read_all_heights();
     ASSERT_TRUE(heights);
     EXPECT_TRUE(same_bits(*heights, parts.heights));
-    EXPECT_EQ(scene->read_all_metrics()->radius.at(3, 1024), 12);
+    EXPECT_EQ(lod::load_metrics(*scene, *heights)->radius.samples(), parts.metrics.radius.samples());
 }
 
 TEST(SceneRoundTrip, HeightsAboveTheEllipsoidNeedNoUndulations) {

@@ -33,18 +33,18 @@ TEST(SceneWriter, LeavesTheSceneAndNothingElse) {
     const SceneFolder folder;
     ASSERT_TRUE(write_scene(made_up_scene(9, 9), folder / "a.relevo"));
     EXPECT_EQ(names_in(folder.path()), Names{"a.relevo"});
-    EXPECT_EQ(names_in(folder / "a.relevo"),
-              (Names{"heights", "heights.vrt", "metrics", "scene.json", "undulation.tif"}));
+    EXPECT_EQ(names_in(folder / "a.relevo"), (Names{"heights", "heights.vrt", "lattice", "marks", "metrics",
+                                                    "scene.json", "undulation.tif"}));
 }
 
 TEST(SceneWriter, LeavesNothingWithoutACommit) {
     const SceneFolder folder;
     {
         const SceneParts parts = made_up_scene(9, 9);
-        auto writer = SceneWriter::create(folder / "a.relevo", false);
+        auto writer = SceneWriter::create(folder / "a.relevo", {.overwrite = false});
         ASSERT_TRUE(writer);
         SceneWriter moved = std::move(*writer);
-        ASSERT_TRUE(moved.write_heights(parts.heights, lod::HeightType::float32, parts.info.frame));
+        ASSERT_TRUE(write_posts(moved, parts));
         EXPECT_FALSE(fs::exists(folder / "a.relevo"));
     }
     EXPECT_TRUE(fs::is_empty(folder.path()));
@@ -103,14 +103,14 @@ TEST(SceneWriter, ALinkStaysALink) {
 TEST(SceneWriter, OnlyOneWriterAtATime) {
     const SceneFolder folder;
     {
-        const auto first = SceneWriter::create(folder / "a.relevo", false);
+        const auto first = SceneWriter::create(folder / "a.relevo", {.overwrite = false});
         ASSERT_TRUE(first);
-        const auto second = SceneWriter::create(folder / "a.relevo", false);
+        const auto second = SceneWriter::create(folder / "a.relevo", {.overwrite = false});
         ASSERT_FALSE(second);
         EXPECT_NE(second.error().message.find("another Relevo"), std::string::npos) << second.error().message;
-        EXPECT_TRUE(SceneWriter::create(folder / "b.relevo", false));
+        EXPECT_TRUE(SceneWriter::create(folder / "b.relevo", {.overwrite = false}));
     }
-    EXPECT_TRUE(SceneWriter::create(folder / "a.relevo", false));
+    EXPECT_TRUE(SceneWriter::create(folder / "a.relevo", {.overwrite = false}));
 }
 
 TEST(SceneWriter, ManyWritersAtOnceLeaveOneWholeScene) {
@@ -169,7 +169,7 @@ int in_child(const Work& work) {
 TEST(SceneWriter, AKilledWriterBlocksNobodyAndIsSwept) {
     const SceneFolder folder;
     EXPECT_EQ(in_child([&] {
-                  const auto writer = SceneWriter::create(folder / "a.relevo", false);
+                  const auto writer = SceneWriter::create(folder / "a.relevo", {.overwrite = false});
                   kill(getpid(), SIGKILL);
               }),
               -SIGKILL);
@@ -181,11 +181,12 @@ TEST(SceneWriter, AKilledWriterBlocksNobodyAndIsSwept) {
 
 TEST(SceneWriter, NoFolderToWriteIn) {
     const SceneFolder folder;
-    const auto missing = SceneWriter::create(folder / "no/such/a.relevo", false);
+    const auto missing = SceneWriter::create(folder / "no/such/a.relevo", {.overwrite = false});
     ASSERT_FALSE(missing);
     EXPECT_NE(missing.error().message.find("no/such"), std::string::npos) << missing.error().message;
-    for (const char* nowhere : {"", "/", "."}) EXPECT_FALSE(SceneWriter::create(nowhere, true)) << nowhere;
-    EXPECT_FALSE(SceneWriter::create("/proc/a.relevo", false));
+    for (const char* nowhere : {"", "/", "."})
+        EXPECT_FALSE(SceneWriter::create(nowhere, {.overwrite = true})) << nowhere;
+    EXPECT_FALSE(SceneWriter::create("/proc/a.relevo", {.overwrite = false}));
 }
 
 /// A limit on the size of files fails a write just as a full disk does, and needs no disk.

@@ -14,8 +14,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "lod/scene/parallel_blocks.hpp"
 #include "lod/scene/scene.hpp"
+#include "lod/scene/scene_files.hpp"
 #include "lod/scene/scene_writer.hpp"
+#include "lod/soar/metrics.hpp"
+#include "lod/soar/stored_metrics.hpp"
 
 namespace relevo::test {
 
@@ -75,6 +79,7 @@ inline bool same_bits(const lod::Raster<float>& a, const lod::Raster<float>& b) 
 struct SceneParts {
     lod::SceneInfo info;
     lod::Raster<float> heights;
+    lod::Raster<lod::PostMark> marks;  // none: plain ones
     lod::MetricRasters metrics;
     lod::UndulationGrid undulations;
 };
@@ -119,15 +124,6 @@ inline SceneParts made_up_scene(int columns, int rows, lod::HeightType type = lo
     parts.info.sources.push_back(source);
 
     const int side = frame.padded_side();
-    for (auto* raster : {&parts.metrics.bounded, &parts.metrics.incremental, &parts.metrics.radius}) {
-        *raster = lod::Raster<std::uint16_t>(side, side);
-        for (int row = 0; row < rows; ++row) {
-            for (int column = 0; column < columns; ++column) {
-                raster->at(column, row) =
-                    static_cast<std::uint16_t>(column + 3 * row + (raster == &parts.metrics.radius ? 5 : 0));
-            }
-        }
-    }
     lod::Raster<float> nodes((side + 1) / 2, (side + 1) / 2);
     for (int row = 0; row < nodes.rows(); ++row) {
         for (int column = 0; column < nodes.columns(); ++column) {
@@ -136,17 +132,76 @@ inline SceneParts made_up_scene(int columns, int rows, lod::HeightType type = lo
         }
     }
     parts.undulations = lod::UndulationGrid(nodes, 1);
+    parts.metrics = lod::build_metrics(frame, parts.undulations, parts.heights);
     return parts;
+}
+
+inline Result<void> write_layer(lod::BlockStore& store, const lod::MetricRasters& codes,
+                                const lod::BlockGrid& grid, bool stored_part) {
+    return lod::for_each_block(grid.count(), [&](int i) -> Result<void> {
+        const int column = i % grid.across;
+        const int row = i / grid.across;
+        const auto box = grid.box(column, row);
+        lod::MetricRasters part{lod::part_of(codes.bounded, box), lod::part_of(codes.incremental, box),
+                                lod::part_of(codes.radius, box)};
+        if (stored_part) {
+            const int step = lod::BlockGrid::kLatticeSpacing;
+            for (auto* raster : {&part.bounded, &part.incremental, &part.radius}) {
+                for (int y = 0; y < raster->rows(); y += step) {
+                    for (int x = 0; x < raster->columns(); x += step) raster->at(x, y) = 0;
+                }
+            }
+            part = lod::stored_part(part);
+        }
+        const auto bytes = lod::encode_metrics(part);
+        if (!bytes) return bytes.error();
+        return store.write(column, row, *bytes);
+    });
+}
+
+/// Every 8th post of the codes of a padded grid.
+inline lod::MetricRasters lattice_of(const lod::MetricRasters& codes) {
+    const int step = lod::BlockGrid::kLatticeSpacing;
+    const int side = (codes.radius.columns() - 1) / step + 1;
+    const auto thinned = [&](const lod::Raster<std::uint16_t>& all) {
+        lod::Raster<std::uint16_t> some(side, side);
+        for (int row = 0; row < side; ++row) {
+            for (int column = 0; column < side; ++column)
+                some.at(column, row) = all.at(step * column, step * row);
+        }
+        return some;
+    };
+    return {thinned(codes.bounded), thinned(codes.incremental), thinned(codes.radius)};
+}
+
+inline Result<void> write_posts(const lod::SceneWriter& writer, const SceneParts& parts) {
+    auto posts = writer.posts(parts.info.frame, {parts.info.height_type, parts.info.max_height_error_m}, 0);
+    if (!posts) return posts.error();
+    const auto marks = parts.marks.columns() > 0 ? parts.marks : lod::plain_marks(parts.heights);
+    return lod::for_each_block(posts->grid().count(), [&](int i) -> Result<void> {
+        const int column = i % posts->grid().across;
+        const int row = i / posts->grid().across;
+        const auto box = posts->grid().box(column, row);
+        return posts->write(column, row, {lod::part_of(parts.heights, box), lod::part_of(marks, box)});
+    });
 }
 
 /// Writes a scene, with its undulations unless its heights are above the ellipsoid.
 inline Result<void> write_scene(const SceneParts& parts, const std::filesystem::path& path,
                                 bool overwrite = false) {
-    auto writer = lod::SceneWriter::create(path, overwrite);
+    auto writer = lod::SceneWriter::create(path, {.overwrite = overwrite});
     if (!writer) return writer.error();
-    if (auto done = writer->write_heights(parts.heights, parts.info.height_type, parts.info.frame); !done)
+    if (auto done = write_posts(*writer, parts); !done) return done;
+    const int side = parts.info.frame.padded_side();
+    auto metrics = writer->layer(lod::kMetricsFolder);
+    if (!metrics) return metrics.error();
+    if (auto done = write_layer(*metrics, parts.metrics, lod::BlockGrid::of_metrics(side), true); !done)
         return done;
-    if (auto done = writer->write_metrics(parts.metrics); !done) return done;
+    auto lattice = writer->layer(lod::kLatticeFolder);
+    if (!lattice) return lattice.error();
+    if (auto done = write_layer(*lattice, lattice_of(parts.metrics), lod::BlockGrid::of_lattice(side), false);
+        !done)
+        return done;
     if (auto done = writer->write_undulations(parts.undulations); !done) return done;
     return writer->commit(parts.info);
 }

@@ -13,6 +13,9 @@ inline constexpr int kCodeMantissaBits = 6;
 /// Largest factor by which a decoded value exceeds the true one.
 inline constexpr double kCodeStep = 1 + 1.0 / (1 << kCodeMantissaBits);
 
+/// Of the largest float.
+inline constexpr std::uint16_t kLargestCode = (255 << kCodeMantissaBits) - 1;
+
 /// Smallest code whose value is at least `value`. \pre value >= 0 and finite
 inline std::uint16_t encode_up(double value) {
     constexpr int kDropped = 23 - kCodeMantissaBits;
