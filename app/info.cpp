@@ -30,7 +30,7 @@ struct Derived {
           spacing(info.frame.spacing({(info.frame.columns - 1) / 2.0, (info.frame.rows - 1) / 2.0})),
           posts(info.valid_posts + info.void_posts),
           height_bytes(sum(info.heights)),
-          metric_bytes(sum(info.metrics)) {}
+          metric_bytes(sum(info.metrics) + sum(info.lattice)) {}
 
     double per_post(std::uint64_t bytes) const {
         return static_cast<double>(bytes) / static_cast<double>(posts);
@@ -45,7 +45,8 @@ struct Derived {
 
 void print_json(const lod::SceneInfo& info, const Derived& derived) {
     nlohmann::json json = lod::to_json(info);
-    for (const char* only_on_disk : {"heights", "metrics", "undulation", "block_side", "vertical_name"}) {
+    for (const char* only_on_disk :
+         {"heights", "marks", "metrics", "lattice", "undulation", "block_side", "vertical_name"}) {
         json.erase(only_on_disk);
     }
     json["extent"] = {{"west", derived.extent.west},
@@ -62,8 +63,6 @@ void print_json(const lod::SceneInfo& info, const Derived& derived) {
     json["step_x_m"] = derived.spacing.column_m;
     json["step_y_m"] = derived.spacing.row_m;
     json["vertical_datum"] = info.vertical.name;
-    json["filled_posts"] = nullptr;  // holes are not filled, and the sea is not told from the land: unknown
-    json["sea_posts"] = nullptr;
     if (info.valid_posts == 0) json["height_min_m"] = json["height_max_m"] = nullptr;
     json["bytes"] = info.bytes();
     json["bytes_per_post"] = derived.per_post(info.bytes());

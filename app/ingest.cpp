@@ -12,6 +12,7 @@
 #include "app/command.hpp"
 #include "app/source_flags.hpp"
 #include "ingest/import.hpp"
+#include "ingest/inputs.hpp"
 
 namespace relevo::app {
 namespace {
@@ -29,6 +30,14 @@ struct Settings {
     double height_offset = 0;
     std::string vertical;
     SourceFlags source;
+    std::string datum;
+    std::string geoid;
+    std::string priority = "finest";
+    double feather = 0;
+    std::string errors = "bounded";
+    double max_height_error = 0;
+    std::uint64_t memory = std::uint64_t{1} << 30;
+    bool resume = false;
     std::string resampling;
     std::vector<double> resolution;
     std::vector<double> crop;
@@ -64,20 +73,41 @@ std::optional<ingest::Bounds> bounds_of(const std::vector<double>& numbers) {
     return ingest::Bounds{numbers[0], numbers[1], numbers[2], numbers[3]};
 }
 
-ingest::ImportOptions options_of(const Settings& s) {
+std::optional<lod::VerticalDatum> datum_from(const std::string& name) {
+    if (name == "egm96") return lod::VerticalDatum::egm96;
+    if (name == "ellipsoid") return lod::VerticalDatum::ellipsoid;
+    return {};
+}
+
+ingest::SourceRequest source_of(const Settings& s, const std::string& input) {
+    ingest::SourceRequest source;
+    source.input = input;
+    source.crs = s.crs;
+    source.bounds = bounds_of(s.bounds);
+    source.nodata = s.nodata;
+    source.height_scale = s.height_scale;
+    source.height_offset = s.height_offset;
+    source.vertical = datum_from(s.vertical);
+    s.source.apply(source);
+    return source;
+}
+
+Result<ingest::ImportOptions> options_of(const Settings& s) {
+    const auto inputs = ingest::expand_inputs(s.inputs);
+    if (!inputs) return inputs.error();
     ingest::ImportOptions options;
-    options.source.input = s.inputs.front();
-    options.source.crs = s.crs;
-    options.source.bounds = bounds_of(s.bounds);
-    options.source.nodata = s.nodata;
-    options.source.height_scale = s.height_scale;
-    options.source.height_offset = s.height_offset;
-    if (s.vertical == "egm96") options.source.vertical = lod::VerticalDatum::egm96;
-    if (s.vertical == "ellipsoid") options.source.vertical = lod::VerticalDatum::ellipsoid;
-    s.source.apply(options.source);
-    options.target.crop = bounds_of(s.crop);
-    if (!s.resolution.empty()) options.target.resolution = {s.resolution.front(), s.resolution.back()};
-    options.resampling = ingest::resampling_from(s.resampling);
+    ingest::MosaicRequest& mosaic = options.mosaic;
+    for (const std::string& input : *inputs) mosaic.sources.push_back(source_of(s, input));
+    mosaic.target.crop = bounds_of(s.crop);
+    if (!s.resolution.empty()) mosaic.target.resolution = {s.resolution.front(), s.resolution.back()};
+    mosaic.resampling = ingest::resampling_from(s.resampling);
+    mosaic.priority = s.priority == "order" ? ingest::Priority::order : ingest::Priority::finest;
+    mosaic.feather_m = s.feather;
+    mosaic.datum = datum_from(s.datum);
+    if (!s.geoid.empty()) mosaic.geoid = s.geoid;
+    options.max_height_error_m = s.max_height_error;
+    options.bounded_errors = s.errors == "bounded";
+    options.memory_bytes = s.memory;
     options.max_posts = s.max_posts;
     return options;
 }
@@ -110,16 +140,23 @@ nlohmann::json plan_json(const ingest::ImportPlan& plan) {
     json["resampling_method"] = plan.resampling;
     json["vertical_datum"] = plan.vertical.name;
     json["vertical_assumed"] = plan.vertical.assumed;
-    json["crs"] = plan.source.crs;
-    json["operation"] = plan.source.operation;
-    json["operation_accuracy_m"] = nullptr;
-    if (plan.source.operation_accuracy_m) json["operation_accuracy_m"] = *plan.source.operation_accuracy_m;
+    json["sources"] = nlohmann::json::array();
+    for (const lod::SourceInfo& source : plan.sources) {
+        json["sources"].push_back({{"name", source.name},
+                                   {"crs", source.crs},
+                                   {"operation", source.operation},
+                                   {"operation_accuracy_m", nullptr}});
+        if (source.operation_accuracy_m)
+            json["sources"].back()["operation_accuracy_m"] = *source.operation_accuracy_m;
+    }
     json["notes"] = plan.notes;
     return json;
 }
 
 Result<void> show_plan(const Settings& s) {
-    const auto plan = ingest::plan_import(options_of(s));
+    const auto options = options_of(s);
+    if (!options) return options.error();
+    const auto plan = ingest::plan_import(*options);
     if (!plan) return plan.error();
     print_notes(s, plan->notes);
     if (s.common.json) {
@@ -128,9 +165,9 @@ Result<void> show_plan(const Settings& s) {
     }
     fmt::print("{} x {} posts, step {:.10g} x {:.10g} degrees ({})\n", plan->frame.columns, plan->frame.rows,
                plan->frame.step_x, plan->frame.step_y,
-               plan->keeps_own_posts ? "the source's own" : "resampled: " + plan->resampling);
-    fmt::print("{} posts, {} with padding; about {:.1f} MiB on disk and {:.1f} MiB of memory\n", plan->posts,
-               plan->padded_posts, static_cast<double>(plan->bytes_estimate) / 1048576,
+               plan->resampling == "none" ? "the sources' own" : "resampled: " + plan->resampling);
+    fmt::print("{} posts, {} with padding; about {:.1f} MiB on disk; at least {:.1f} MiB of memory\n",
+               plan->posts, plan->padded_posts, static_cast<double>(plan->bytes_estimate) / 1048576,
                static_cast<double>(plan->memory_bytes) / 1048576);
     if (plan->padded_posts > s.max_posts)
         fmt::print("more than --max-posts {}: it would be refused\n", s.max_posts);
@@ -165,8 +202,10 @@ Result<void> run_import(const Settings& s) {
     const StopOnSignal signals;
     const auto bar = progress_bar(s.common, "importing");
     const auto start = std::chrono::steady_clock::now();
-    const auto place = std::filesystem::absolute(s.scene);
-    const auto imported = ingest::import_scene(options_of(s), place, s.overwrite, [&](double done) {
+    const auto options = options_of(s);
+    if (!options) return options.error();
+    const ingest::ImportPlace place{std::filesystem::absolute(s.scene), s.overwrite, s.resume};
+    const auto imported = ingest::import_scene(*options, place, [&](double done) {
         bar(done);
         return stop_asked == 0;
     });
@@ -188,11 +227,6 @@ Result<void> run_import(const Settings& s) {
 }
 
 Result<void> run(const Settings& s) {
-    if (s.inputs.size() > 1)
-        return Error{
-            ErrorKind::usage,
-            "one INPUT at a time for now: several files as one scene are not there yet. Join them first, "
-            "e.g. with `gdalbuildvrt all.vrt FILES...`, and import all.vrt"};
     if (!s.dry_run && s.scene.empty())
         return Error{ErrorKind::usage, "where to? Give the scene's name with -o"};
     for (const double step : s.resolution)
@@ -205,10 +239,14 @@ Result<void> run(const Settings& s) {
 void add_ingest(CLI::App& program, Action& action) {
     auto settings = std::make_shared<Settings>();
     Settings& s = *settings;
-    CLI::App& command = *program.add_subcommand("ingest", "Import an elevation file as a scene");
-    command.add_option("INPUT", s.inputs, "An elevation file in any format that GDAL reads")->required();
+    CLI::App& command = *program.add_subcommand("ingest", "Import elevation files as one scene");
+    command
+        .add_option("INPUT", s.inputs,
+                    "Elevation files, folders of them, VRTs, zipped tiles, or @LIST: a text file of these")
+        ->required();
     command.add_option("-o,--output", s.scene, "The scene to make, NAME.relevo");
     command.add_flag("--overwrite", s.overwrite, "Replace a scene of that name");
+    command.add_flag("--resume", s.resume, "Go on from what the same import has left when it was stopped");
     command.add_flag("--dry-run", s.dry_run, "Say what would be made (posts, bytes), and make nothing");
     command.add_option("--crs", s.crs,
                        "Coordinate reference system of the file, e.g. EPSG:32611, in place of its own");
@@ -223,6 +261,14 @@ void add_ingest(CLI::App& program, Action& action) {
     command.add_option("--vertical", s.vertical, "What heights are above, in place of what the file says")
         ->check(CLI::IsMember({"egm96", "ellipsoid"}));
     s.source.add_to(command);
+    command
+        .add_option("--datum", s.datum, "What the scene's heights are above; default: the finest source's")
+        ->check(CLI::IsMember({"egm96", "ellipsoid"}));
+    command.add_option("--geoid", s.geoid, "A grid of undulations for heights above another datum");
+    command.add_option("--priority", s.priority, "Where inputs overlap: the finest wins, or the first given")
+        ->check(CLI::IsMember({"finest", "order"}))
+        ->capture_default_str();
+    command.add_option("--feather", s.feather, "Blend the border of finer data over this many metres");
     command.add_option("--resampling", s.resampling, "Default: cubic, or average where the scene is coarser")
         ->check(CLI::IsMember({"cubic", "bilinear", "nearest", "average"}));
     command
@@ -236,6 +282,17 @@ void add_ingest(CLI::App& program, Action& action) {
         ->type_name("W,S,E,N")
         ->delimiter(',')
         ->expected(4);
+    command
+        .add_option("--errors", s.errors, "Errors to build: bounded (and incremental), or incremental alone")
+        ->check(CLI::IsMember({"bounded", "incremental"}))
+        ->capture_default_str();
+    command
+        .add_option("--max-height-error", s.max_height_error,
+                    "Metres by which heights may be changed so that they take less disk (LERC)")
+        ->check(CLI::NonNegativeNumber);
+    command.add_option("--memory", s.memory, "Most memory to take, e.g. 512MiB")
+        ->transform(CLI::AsSizeValue(false))
+        ->default_str("1GiB");
     command.add_option("--max-posts", s.max_posts, "Refuse scenes whose padded grid is larger")
         ->capture_default_str();
     add_common(command, s.common);

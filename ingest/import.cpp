@@ -1,123 +1,75 @@
 #include "ingest/import.hpp"
 
 #include <cmath>
-#include <exception>
 #include <utility>
 
 #include <fmt/format.h>
+#include <gdal_priv.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
-#include "geo/geoid.hpp"
-#include "ingest/operation.hpp"
-#include "ingest/read_heights.hpp"
+#include "ingest/import_passes.hpp"
+#include "ingest/job.hpp"
+#include "ingest/memory_budget.hpp"
 #include "ingest/refusal.hpp"
-#include "ingest/resampling_error.hpp"
-#include "ingest/surface_statistics.hpp"
+#include "ingest/vertical_datum.hpp"
+#include "lod/scene/parallel_blocks.hpp"
 #include "lod/scene/scene.hpp"
 #include "lod/scene/scene_writer.hpp"
 #include "lod/scene/sha256.hpp"
-#include "lod/soar/metrics.hpp"
 #include "lod/undulation_grid.hpp"
 
 namespace relevo::ingest {
 namespace {
 
-// Parts of the work, of 1.
-constexpr double kHeightsDone = 0.35;
-constexpr double kErrorDone = 0.5;
-constexpr double kMetricsDone = 0.9;
+constexpr std::uint64_t kDiskOfMetrics = 1;  // bytes a post, measured (docs/scene-format.md)
 
-// Measured on real ground (docs/ingest.md). Memory: a post's height; a padded post's three codes and what
-// building them takes; the program with its libraries and the geoid. Disk: compressed codes.
-constexpr std::uint64_t kMemoryOfHeight = 4;
-constexpr std::uint64_t kMemoryOfMetrics = 16;
-constexpr std::uint64_t kMemoryOfProgram = std::uint64_t{64} << 20;
-constexpr std::uint64_t kDiskOfMetrics = 4;
-
-/// An opened source and all that is decided before its heights are read.
-struct Prepared {
-    Source source;
-    Operation operation;
-    Target target;
-    Resampling method = Resampling::cubic;
-    double middle_lon = 0;
-
-    SourceMap source_map() const {
-        SourceMap map{operation, source.crs(), source.posts(), source.columns(), source.rows()};
-        map.set_middle_lon(middle_lon);
-        return map;
-    }
-};
-
-/// Places of the source in its CRS: a lattice with its corners.
-std::vector<Place> places_of(const Source& source) {
-    constexpr int kCount = 8;
-    std::vector<Place> places;
-    for (int j = 0; j <= kCount; ++j)
-        for (int i = 0; i <= kCount; ++i)
-            places.push_back(source.posts().at(
-                {(source.columns() - 1) * i / double{kCount}, (source.rows() - 1) * j / double{kCount}}));
-    return places;
+int threads() {
+    return tbb::this_task_arena::max_concurrency();
 }
 
-Result<Prepared> prepare(const ImportOptions& options) {
-    auto source = Source::open(options.source);
-    if (!source) return source.error();
-    auto operation = Operation::to_wgs84(source->crs(), places_of(*source));
-    if (!operation)
-        return operation.error().kind == ErrorKind::input
-                   ? refusal(source->name(), operation.error().message, "")
-                   : operation.error();
-    SourceMap map{*operation, source->crs(), source->posts(), source->columns(), source->rows()};
-    auto target = choose_target(source->name(), source->crs(), source->posts(), map, options.target);
-    if (!target) return target.error();
-    const Resampling automatic = target->downsamples ? Resampling::average : Resampling::cubic;
-    return Prepared{std::move(*source), std::move(*operation), std::move(*target),
-                    options.resampling.value_or(automatic), map.middle_lon()};
-}
-
-lod::SourceInfo describe(const Prepared& prepared) {
-    const Source& source = prepared.source;
-    lod::SourceInfo info;
-    info.name = source.name();
-    info.crs = source.crs().name();
-    info.crs_wkt = source.crs().wkt();
-    info.columns = source.columns();
-    info.rows = source.rows();
-    info.step_x = std::hypot(source.posts().x_column, source.posts().y_column);
-    info.step_y = std::hypot(source.posts().x_row, source.posts().y_row);
-    info.step_unit = source.crs().unit();
-    info.operation = prepared.operation.name();
-    info.operation_accuracy_m = prepared.operation.accuracy_m();
-    info.operation_note = prepared.operation.note();
-    return info;
-}
-
-std::vector<std::string> notes_of(const Prepared& prepared, const ImportOptions& options) {
-    std::vector<std::string> notes = prepared.source.notes();
-    notes.insert(notes.end(), prepared.target.notes.begin(), prepared.target.notes.end());
-    if (prepared.target.own && options.resampling)
-        notes.emplace_back("its own posts are kept: --resampling has nothing to do");
-    if (prepared.source.value_type() == "Float64")
-        notes.emplace_back("float64 heights are rounded to float32");
-    return notes;
-}
-
-ImportPlan plan_of(const Prepared& prepared, const ImportOptions& options) {
+ImportPlan plan_of(const Mosaic& mosaic, const ImportOptions& options) {
     ImportPlan plan;
-    plan.frame = prepared.target.frame;
+    plan.frame = mosaic.frame();
     plan.posts = static_cast<std::uint64_t>(plan.frame.columns) * static_cast<std::uint64_t>(plan.frame.rows);
     const auto side = static_cast<std::uint64_t>(plan.frame.padded_side());
     plan.padded_posts = side * side;
-    plan.keeps_own_posts = prepared.target.own.has_value();
-    const std::uint64_t height_bytes = plan.keeps_own_posts && prepared.source.whole_metres() ? 2 : 4;
+    const std::uint64_t height_bytes = mosaic.fits_int16() ? 2 : 4;
     plan.bytes_estimate = plan.posts * (height_bytes + kDiskOfMetrics);
     plan.memory_bytes =
-        kMemoryOfProgram + plan.posts * kMemoryOfHeight + plan.padded_posts * kMemoryOfMetrics;
-    plan.resampling = plan.keeps_own_posts ? "none" : to_string(prepared.method);
-    plan.vertical = prepared.source.heights().reference;
-    plan.source = describe(prepared);
-    plan.notes = notes_of(prepared, options);
+        divide_memory(options.memory_bytes, plan.frame, mosaic.memory_bytes(), threads()).least;
+    plan.resampling = mosaic.resampling_method();
+    plan.vertical = mosaic.vertical();
+    plan.sources = mosaic.sources();
+    plan.notes = mosaic.notes();
+    if (plan.resampling == "none" && options.mosaic.resampling)
+        plan.notes.emplace_back("its own posts are kept: --resampling has nothing to do");
+    for (const auto& source : plan.sources) {
+        if (!source.operation_note.empty()) plan.notes.push_back(source.operation_note);
+    }
     return plan;
+}
+
+std::string inputs_named(const ImportPlan& plan) {
+    return plan.sources.size() == 1 ? plan.sources[0].name
+                                    : fmt::format("the {} sources", plan.sources.size());
+}
+
+Result<void> check_size(const ImportPlan& plan, const ImportOptions& options) {
+    if (plan.padded_posts > std::min(options.max_posts, ImportOptions::kMostPosts))
+        return refusal(
+            inputs_named(plan),
+            fmt::format("the grid of {} x {} posts is padded to {} posts; at most {} are allowed",
+                        plan.frame.columns, plan.frame.rows, plan.padded_posts,
+                        std::min(options.max_posts, ImportOptions::kMostPosts)),
+            options.max_posts < ImportOptions::kMostPosts
+                ? "Take a part with --crop, make it coarser with --resolution, or raise --max-posts"
+                : "Take a part with --crop, or make it coarser with --resolution");
+    if (plan.memory_bytes > options.memory_bytes)
+        return Error{ErrorKind::usage,
+                     fmt::format("an import of {} x {} posts needs at least {} MiB of memory: raise --memory",
+                                 plan.frame.columns, plan.frame.rows, (plan.memory_bytes >> 20) + 1)};
+    return {};
 }
 
 /// Heights outside of what the earth has: most often a void that the file does not declare, or another unit.
@@ -131,110 +83,123 @@ void note_strange_heights(const lod::SceneInfo& info, std::vector<std::string>& 
                     info.height_min_m, info.height_max_m));
 }
 
-std::string joined(const std::vector<std::string>& notes) {
-    return fmt::format("{}", fmt::join(notes, "; "));
+/// The geoid under the meshes: of the scene's datum, or EGM96 where that has none here.
+Result<lod::UndulationGrid> undulations_of(const Mosaic& mosaic, const ImportOptions& options) {
+    const geo::GridFrame& frame = mosaic.frame();
+    if (mosaic.vertical().datum == lod::VerticalDatum::ellipsoid) return lod::UndulationGrid{};
+    if (mosaic.vertical().datum == lod::VerticalDatum::other) {
+        const auto own = geoid_of(mosaic.vertical(), options.mosaic.geoid);
+        if (own && *own) return lod::UndulationGrid{**own, frame};
+    }
+    const auto geoid = geo::Geoid::egm96();
+    if (!geoid) return geoid.error();
+    return lod::UndulationGrid{*geoid, frame};
 }
 
-/// Heights of the scene and how they compare with the source's, into `info`.
-Result<lod::Raster<float>> heights_of(const Prepared& prepared, const ImportOptions& options,
-                                      const Progress& progress, lod::SceneInfo& info) {
-    const Source& source = prepared.source;
-    const geo::GridFrame& frame = prepared.target.frame;
-    if (prepared.target.own) {
-        auto read = read_own_heights(source, *prepared.target.own, Stage{progress, 0, kErrorDone});
-        if (!read) return read.error();
-        info.resampling = read->rounding;
-        info.resampling_method = "none";
-        if (source.whole_metres() && fits_int16(read->heights)) info.height_type = lod::HeightType::int16;
-        return std::move(read->heights);
-    }
-    const GridMap map{prepared.source_map(), frame};
-    auto heights = warp_heights(source, map, frame, prepared.method, Stage{progress, 0, kHeightsDone});
-    if (!heights) return heights;
-    const auto error = resampling_error(source, map, frame, *heights, options.target.crop.has_value(),
-                                        Stage{progress, kHeightsDone, kErrorDone});
+Result<void> add_checksums(const Mosaic& mosaic, lod::SceneInfo& info) {
+    const auto files = mosaic.files();
+    return lod::for_each_block(static_cast<int>(files.size()), [&](int i) -> Result<void> {
+        const auto& file = files[static_cast<std::size_t>(i)];
+        if (file.empty()) return {};
+        auto checksum = lod::sha256_of_file(file);
+        if (!checksum) return checksum.error();
+        info.sources[static_cast<std::size_t>(i)].sha256 = std::move(*checksum);
+        return {};
+    });
+}
+
+/// All steps of an import in their order; the scene is in its place at the end.
+Result<void> run(const Mosaic& mosaic, const ImportOptions& options, lod::HeightType type,
+                 lod::SceneWriter& writer, const Progress& progress, ImportPlan& plan, bool& too_wide) {
+    const MemoryBudget memory =
+        divide_memory(options.memory_bytes, mosaic.frame(), mosaic.memory_bytes(), threads());
+    GDALSetCacheMax64(static_cast<GIntBig>(memory.gdal_cache));
+    const lod::HeightCoding coding{type, options.max_height_error_m};
+
+    auto posts = writer.posts(mosaic.frame(), coding, memory.posts_cache);
+    if (!posts) return posts.error();
+    lod::MeshHeights fill(mosaic.frame());
+    auto copied = copy_posts(mosaic, type, *posts, fill, Stage{progress, 0, 0.5});
+    if (!copied) return copied.error();
+    too_wide = *copied == Copied::too_wide_for_int16;
+    if (too_wide) return {};
+
+    lod::SceneInfo info;
+    info.frame = mosaic.frame();
+    info.vertical = mosaic.vertical();
+    info.height_type = type;
+    info.max_height_error_m = options.max_height_error_m;
+    info.bounded_errors = options.bounded_errors;
+    info.resampling_method = plan.resampling;
+    info.sources = plan.sources;
+    const auto undulations = undulations_of(mosaic, options);
+    if (!undulations) return undulations.error();
+    if (auto done = measure_posts(*posts, fill, *undulations, writer, info, Stage{progress, 0.5, 0.85});
+        !done)
+        return done;
+    if (info.valid_posts == 0)
+        return refusal(inputs_named(plan), "all of it is void",
+                       "Check --nodata and --crop, or whether it holds heights at all");
+    const auto scene_heights = [&](Window w) -> Result<lod::Raster<float>> {
+        auto part = posts->read({w.column, w.row, w.columns, w.rows});
+        if (!part) return part.error();
+        return std::move(part->heights);
+    };
+    const auto error = mosaic.resampling_error(scene_heights, Stage{progress, 0.85, 0.95});
     if (!error) return error.error();
     info.resampling = *error;
-    info.resampling_method = to_string(prepared.method);
-    return heights;
+
+    note_strange_heights(info, plan.notes);
+    if (plan.resampling == "none" && info.resampling.max_m > 0 && options.max_height_error_m == 0)
+        plan.notes.push_back(
+            fmt::format("float32 rounds its heights by up to {:.2g} m", info.resampling.max_m));
+    if (info.sources.size() == 1) info.sources[0].notes = fmt::format("{}", fmt::join(plan.notes, "; "));
+    if (auto done = add_checksums(mosaic, info); !done) return done;
+    if (auto done = writer.write_undulations(*undulations); !done) return done;
+    if (progress && !progress(0.97)) return interrupted();
+    return writer.commit(std::move(info));
 }
 
-Result<void> write(lod::SceneWriter& writer, lod::SceneInfo info, const lod::Raster<float>& heights,
-                   const lod::MetricRasters& metrics, const lod::UndulationGrid& undulations,
-                   const Stage& stage) {
-    if (auto done = writer.write_heights(heights, info.height_type, info.frame); !done) return done;
-    if (!stage(0.3)) return interrupted();
-    if (auto done = writer.write_metrics(metrics); !done) return done;
-    if (!stage(0.8)) return interrupted();
-    if (auto done = writer.write_undulations(undulations); !done) return done;
-    if (!stage(0.9)) return interrupted();
-    return writer.commit(std::move(info));
+Error with_remedy(Error error) {
+    if (error.kind == ErrorKind::internal)
+        error.message += ". What is finished is kept: the same command with --resume goes on from there";
+    return error;
 }
 
 }  // namespace
 
 Result<ImportPlan> plan_import(const ImportOptions& options) {
-    const auto prepared = prepare(options);
-    if (!prepared) return prepared.error();
-    ImportPlan plan = plan_of(*prepared, options);
-    if (!plan.source.operation_note.empty()) plan.notes.push_back(plan.source.operation_note);
-    return plan;
+    const auto mosaic = Mosaic::open(options.mosaic);
+    if (!mosaic) return mosaic.error();
+    return plan_of(*mosaic, options);
 }
 
-Result<Imported> import_scene(const ImportOptions& options, const std::filesystem::path& scene,
-                              bool overwrite, const Progress& progress) {
-    const auto prepared = prepare(options);
-    if (!prepared) return prepared.error();
-    ImportPlan plan = plan_of(*prepared, options);
-    const std::string& name = prepared->source.name();
-    if (plan.padded_posts > options.max_posts)
-        return refusal(
-            name,
-            fmt::format(
-                "its grid of {} x {} posts is padded to {} posts and needs about {} MiB of memory; at "
-                "most {} posts are allowed",
-                plan.frame.columns, plan.frame.rows, plan.padded_posts, plan.memory_bytes >> 20,
-                options.max_posts),
-            "Take a part with --crop, make it coarser with --resolution, or raise --max-posts");
-    auto writer = lod::SceneWriter::create(scene, overwrite);
-    if (!writer) return writer.error();
+Result<Imported> import_scene(const ImportOptions& options, const ImportPlace& place,
+                              const Progress& progress) {
+    const auto mosaic = Mosaic::open(options.mosaic);
+    if (!mosaic) return mosaic.error();
+    ImportPlan plan = plan_of(*mosaic, options);
+    if (auto fits = check_size(plan, options); !fits) return fits.error();
 
-    lod::SceneInfo info;
-    info.frame = plan.frame;
-    info.vertical = plan.vertical;
-    const auto heights = heights_of(*prepared, options, progress, info);
-    if (!heights) return heights.error();
-    add_statistics(*heights, info);
-    if (info.valid_posts == 0)
-        return refusal(name, "all of it is void",
-                       "Check --nodata and --crop, or whether it holds heights at all");
-    note_strange_heights(info, plan.notes);
-    if (plan.keeps_own_posts && info.resampling.max_m > 0)
-        plan.notes.push_back(
-            fmt::format("float32 rounds its heights by up to {:.2g} m", info.resampling.max_m));
-
-    lod::UndulationGrid undulations;
-    if (info.vertical.datum != lod::VerticalDatum::ellipsoid) {
-        const auto geoid = geo::Geoid::egm96();
-        if (!geoid) return geoid.error();
-        undulations = lod::UndulationGrid{*geoid, info.frame};
+    auto type = mosaic->fits_int16() ? lod::HeightType::int16 : lod::HeightType::float32;
+    bool anew = false;
+    for (;;) {
+        auto writer = lod::SceneWriter::create(
+            place.scene, {place.overwrite, place.resume, job_text(options, mosaic->files(), type)});
+        if (!writer) return writer.error();
+        anew = place.resume && !writer->resumed();
+        bool too_wide = false;
+        const auto done = run(*mosaic, options, type, *writer, progress, plan, too_wide);
+        if (!done && done.error().kind == ErrorKind::internal) writer->keep_for_resume();
+        if (!done) return with_remedy(done.error());
+        if (!too_wide) break;
+        type = lod::HeightType::float32;
     }
-    const auto metrics = lod::build_metrics(info.frame, undulations, *heights);
-
-    plan.source.notes = joined(plan.notes);
-    if (!plan.source.operation_note.empty()) plan.notes.push_back(plan.source.operation_note);
-    if (!prepared->source.file().empty()) {
-        auto checksum = lod::sha256_of_file(prepared->source.file());
-        if (!checksum) return checksum.error();
-        plan.source.sha256 = std::move(*checksum);
-    }
-    info.sources.push_back(std::move(plan.source));
-    if (auto done = write(*writer, info, *heights, metrics, undulations, Stage{progress, kMetricsDone, 1});
-        !done)
-        return done.error();
     if (progress) progress(1);
-
-    const auto written = lod::Scene::open(scene);
+    if (anew)
+        plan.notes.emplace_back(
+            "there was nothing to resume (or of other inputs, options or versions): begun anew");
+    const auto written = lod::Scene::open(place.scene);
     if (!written) return written.error();
     return Imported{written->info(), std::move(plan.notes)};
 }

@@ -2,28 +2,27 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "geo/result.hpp"
+#include "ingest/mosaic.hpp"
 #include "ingest/progress.hpp"
-#include "ingest/resample.hpp"
-#include "ingest/source.hpp"
-#include "ingest/target_frame.hpp"
 #include "lod/scene/scene_info.hpp"
 
 namespace relevo::ingest {
 
 /// What to import and how.
 struct ImportOptions {
-    SourceRequest source;
-    TargetRequest target;
-    std::optional<Resampling>
-        resampling;  ///< else cubic, or average where the scene is coarser than the source
+    MosaicRequest mosaic;
 
-    /// Largest padded grid: all of it is in memory (docs/ingest.md).
-    static constexpr std::uint64_t kMostPosts = std::uint64_t{16385} * 16385;
+    double max_height_error_m = 0;  ///< heights may be stored with this much loss (LERC); 0: none
+    bool bounded_errors = true;     ///< else the incremental error alone is built: faster, and no bound
+
+    /// Most memory to take, bytes. The scene does not depend on it.
+    std::uint64_t memory_bytes = std::uint64_t{1} << 30;
+    /// Largest padded grid: mesh coordinates have 16 bits.
+    static constexpr std::uint64_t kMostPosts = std::uint64_t{32769} * 32769;
     std::uint64_t max_posts = kMostPosts;
 };
 
@@ -34,15 +33,14 @@ struct ImportPlan {
     std::uint64_t padded_posts = 0;  ///< of the 2^n + 1 grid around it
     std::uint64_t bytes_estimate =
         0;  ///< on disk: within a factor of 3 for real ground, less where most is void
-    std::uint64_t memory_bytes = 0;  ///< while importing, roughly
-    bool keeps_own_posts = false;
-    std::string resampling;  ///< as SceneInfo::resampling_method
+    std::uint64_t memory_bytes = 0;  ///< least that the import needs
+    std::string resampling;          ///< as SceneInfo::resampling_method
     lod::VerticalReference vertical;
-    lod::SourceInfo source;          ///< without its checksum
-    std::vector<std::string> notes;  ///< what was assumed or converted, for people
+    std::vector<lod::SourceInfo> sources;  ///< without their checksums
+    std::vector<std::string> notes;        ///< what was assumed or converted, for people
 };
 
-/// Opens and checks the source and chooses the scene's grid; reads no heights and writes nothing.
+/// Opens and checks the sources and chooses the scene's grid; reads no heights and writes nothing.
 Result<ImportPlan> plan_import(const ImportOptions& options);
 
 struct Imported {
@@ -50,9 +48,18 @@ struct Imported {
     std::vector<std::string> notes;
 };
 
-/// Imports a source as the scene at a path. On failure, and where progress says stop, nothing is left behind
-/// and a scene that was there is as it was.
-Result<Imported> import_scene(const ImportOptions& options, const std::filesystem::path& scene,
-                              bool overwrite, const Progress& progress = {});
+/// How a scene comes to its place.
+struct ImportPlace {
+    std::filesystem::path scene;
+    bool overwrite = false;
+    bool resume = false;  ///< go on from what an import of the same sources with the same options has left
+};
+
+/// Imports the sources as the scene at a place. On failure a scene that was there is as it was. Where the
+/// import is killed or stopped (progress says so, a full disk), finished blocks stay in a hidden folder
+/// beside the place for `resume`, until the next import to this place; where the sources cannot be used,
+/// nothing stays.
+Result<Imported> import_scene(const ImportOptions& options, const ImportPlace& place,
+                              const Progress& progress = {});
 
 }  // namespace relevo::ingest

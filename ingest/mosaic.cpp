@@ -283,8 +283,7 @@ bool Mosaic::fits_int16() const {
     for (const LayerInScene& layer : state_->in_scene)
         if (!layer.own() || layer.shift()) return false;
     for (int i = 0; i < state_->pool.count(); ++i) {
-        const SourceFacts& facts = state_->pool.facts(i);
-        if (!facts.whole_metres || (facts.value_type != "Int16" && facts.value_type != "Byte")) return false;
+        if (!state_->pool.facts(i).whole_metres) return false;
     }
     return true;
 }

@@ -66,7 +66,7 @@ class Mosaic {
 
     /// "none" where all posts are sources' own, else how heights between them are made.
     std::string resampling_method() const;
-    /// Are all heights whole metres of 16-bit integers, as far as types tell?
+    /// Are all heights whole metres, as far as types tell? (Most then fit 16 bits.)
     bool fits_int16() const;
     /// What was assumed or converted, for people.
     std::vector<std::string> notes() const;

@@ -339,6 +339,7 @@ Result<SceneInfo> scene_info_from_json(const nlohmann::json& json) {
             ErrorKind::input,
             fmt::format("it has format version {}, of an older Relevo: import its sources again", version)};
     }
+    if (version == 0) fields.wrong("format_version", "is unknown");
 
     SceneInfo info;
     info.frame = frame_from(fields.object("frame"));

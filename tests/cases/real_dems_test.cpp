@@ -35,8 +35,8 @@ TEST_P(RealDems, KeepTheErrorOnEveryView) {
     RELEVO_NEEDS_DATA(GetParam().file);
     const test::SceneFolder folder;
     ingest::ImportOptions options = test::options_for(test::shared_data(GetParam().file));
-    if (*GetParam().crs != '\0') options.source.crs = GetParam().crs;
-    const auto imported = ingest::import_scene(options, folder / "real.relevo", false);
+    if (*GetParam().crs != '\0') options.mosaic.sources.front().crs = GetParam().crs;
+    const auto imported = ingest::import_scene(options, {folder / "real.relevo"});
     ASSERT_TRUE(imported) << imported.error().message;
     const auto scene = Scene::open(folder / "real.relevo");
     ASSERT_TRUE(scene) << scene.error().message;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <random>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include "geo/coordinate_text.hpp"
@@ -143,7 +145,7 @@ TEST(Import, APlaneWarpedFromUtmIsAPlane) {
     const auto file = raster.write(folder / "plane.tif");
     for (const auto method : {Resampling::cubic, Resampling::bilinear}) {
         auto options = options_for(file);
-        options.resampling = method;
+        options.mosaic.resampling = method;
         const auto scene = imported(folder, options);
         const auto found = deviation_of_utm(folder, scene, raster, plane);
         EXPECT_GT(found.posts, 5000);
@@ -229,12 +231,12 @@ TEST(Import, SameSurfaceInEveryUnit) {
 TEST(Import, EllipsoidalHeightsHaveNoUndulation) {
     const SceneFolder folder;
     auto options = options_for(SyntheticRaster{}.write(folder / "a.tif"));
-    options.source.vertical = lod::VerticalDatum::ellipsoid;
+    options.mosaic.sources.front().vertical = lod::VerticalDatum::ellipsoid;
     EXPECT_TRUE(imported(folder, options).info.vertical.datum == lod::VerticalDatum::ellipsoid);
     const auto scene = lod::Scene::open(folder / "scene.relevo");
     ASSERT_TRUE(scene);
     EXPECT_EQ(scene->undulations().at(3, 3), 0);
-    options.source.vertical = lod::VerticalDatum::egm96;
+    options.mosaic.sources.front().vertical = lod::VerticalDatum::egm96;
     imported(folder, options);
     const auto orthometric = lod::Scene::open(folder / "scene.relevo");
     ASSERT_TRUE(orthometric);
@@ -260,8 +262,8 @@ TEST(Import, SameInputSameBytes) {
     SyntheticRaster raster = utm_raster();
     raster.value = [](int c, int r) { return rough(c, r); };
     const auto options = options_for(raster.write(folder / "a.tif"));
-    ASSERT_TRUE(import_scene(options, folder / "one.relevo", false));
-    ASSERT_TRUE(import_scene(options, folder / "two.relevo", false));
+    ASSERT_TRUE(import_scene(options, {folder / "one.relevo"}));
+    ASSERT_TRUE(import_scene(options, {folder / "two.relevo"}));
     EXPECT_EQ(test::all_files(folder / "one.relevo"), test::all_files(folder / "two.relevo"));
 }
 
@@ -272,7 +274,7 @@ TEST(Import, DownsamplingAverages) {
     raster.columns = raster.rows = 101;
     raster.value = [](int column, int row) { return (column + row) % 2 == 0 ? 0 : 100; };
     auto options = options_for(raster.write(folder / "a.tif"));
-    options.target.resolution = {0.04, 0.04};
+    options.mosaic.target.resolution = {0.04, 0.04};
     const auto scene = imported(folder, options);
     EXPECT_EQ(scene.info.resampling_method, "average");
     EXPECT_EQ(scene.heights.columns(), 26);
@@ -302,24 +304,125 @@ TEST(Import, TooManyPostsAreRefused) {
     options.max_posts = 1000;  // 20 x 10 is padded to 33 x 33
     EXPECT_TRUE(test::says(refused(folder, options), {"1089", "--max-posts", "--crop"}));
     options.max_posts = 1089;
-    EXPECT_TRUE(import_scene(options, folder / "b.relevo", false));
+    EXPECT_TRUE(import_scene(options, {folder / "b.relevo"}));
 }
 
-TEST(Import, StoppingLeavesNothingAndTheOldSceneAsItWas) {
+/// The visible files below a folder.
+std::map<std::string, std::string> visible_files(const std::filesystem::path& folder) {
+    auto files = test::all_files(folder);
+    std::erase_if(files, [](const auto& file) { return file.first.starts_with('.'); });
+    return files;
+}
+
+SyntheticRaster three_blocks() {
+    SyntheticRaster raster;
+    raster.columns = 1100;
+    raster.rows = 30;
+    raster.geotransform = {10, 0.001, 0, 50, 0, -0.001};
+    raster.type = GDT_Float32;
+    raster.value = [](int c, int r) { return rough(c, r); };
+    return raster;
+}
+
+TEST(Import, StoppingLeavesTheOldSceneAsItWasAndResumes) {
     const SceneFolder folder;
-    SyntheticRaster raster = utm_raster();
-    const auto options = options_for(raster.write(folder / "a.tif"));
-    ASSERT_TRUE(import_scene(options, folder / "scene.relevo", false));
+    const auto options = options_for(three_blocks().write(folder / "a.tif"));
+    ASSERT_TRUE(import_scene(options, {folder / "scene.relevo"}));
     const auto before = test::all_files(folder.path());
-    for (const double when : {0.0, 0.2, 0.4, 0.6, 0.85, 0.93, 0.98}) {
-        const auto stopped =
-            import_scene(options, folder / "scene.relevo", true, [&](double done) { return done < when; });
+    for (const double when : {0.0, 0.2, 0.4, 0.6, 0.85, 0.93, 0.96}) {
+        const auto stopped = import_scene(options, {.scene = folder / "scene.relevo", .overwrite = true},
+                                          [&](double done) { return done < when; });
         ASSERT_FALSE(stopped) << when;
-        EXPECT_TRUE(test::says(stopped.error().message, {"interrupted"}));
-        EXPECT_EQ(test::all_files(folder.path()), before) << when;
+        EXPECT_TRUE(test::says(stopped.error().message, {"interrupted", "--resume"}));
+        EXPECT_EQ(visible_files(folder.path()), before) << when;
+        const auto resumed =
+            import_scene(options, {.scene = folder / "scene.relevo", .overwrite = true, .resume = true});
+        ASSERT_TRUE(resumed) << resumed.error().message;
+        EXPECT_EQ(test::all_files(folder.path()), before) << "the same bytes, and nothing left; " << when;
     }
-    EXPECT_FALSE(import_scene(options, folder / "scene.relevo", false));  // taken
+    EXPECT_FALSE(import_scene(options, {folder / "scene.relevo"}));  // taken
     EXPECT_EQ(test::all_files(folder.path()), before);
+}
+
+TEST(Import, OnlyTheSameJobIsResumed) {
+    const SceneFolder folder;
+    auto options = options_for(three_blocks().write(folder / "a.tif"));
+    ASSERT_FALSE(import_scene(options, {folder / "b.relevo"}, [](double done) { return done < 0.4; }));
+    options.mosaic.sources.front().height_offset = 100;
+    const auto other = import_scene(options, {.scene = folder / "b.relevo", .resume = true});
+    ASSERT_TRUE(other) << other.error().message;
+    EXPECT_TRUE(test::says(fmt::format("{}", fmt::join(other->notes, " ")), {"nothing to resume"}));
+    ASSERT_TRUE(import_scene(options, {folder / "c.relevo"}));
+    EXPECT_EQ(test::all_files(folder / "b.relevo"), test::all_files(folder / "c.relevo"));
+}
+
+TEST(Import, WhatIsLeftOfABlockIsNotTrusted) {
+    const SceneFolder folder;
+    const auto options = options_for(three_blocks().write(folder / "a.tif"));
+    ASSERT_TRUE(import_scene(options, {folder / "whole.relevo"}));
+    ASSERT_FALSE(import_scene(options, {folder / "b.relevo"}, [](double done) { return done < 0.7; }));
+    int changed = 0;
+    for (const auto& [name, text] : test::all_files(folder.path())) {
+        if (name.find("heights/r0000-c0001") == std::string::npos || !name.starts_with(".b.")) continue;
+        test::replace(folder / name, text.substr(0, text.size() / 2));
+        ++changed;
+    }
+    ASSERT_EQ(changed, 1);
+    ASSERT_TRUE(import_scene(options, {.scene = folder / "b.relevo", .resume = true}));
+    EXPECT_EQ(test::all_files(folder / "b.relevo"), test::all_files(folder / "whole.relevo"));
+}
+
+TEST(Import, TheSameBytesWhateverTheMemory) {
+    const SceneFolder folder;
+    auto options = options_for(three_blocks().write(folder / "a.tif"));
+    ASSERT_TRUE(import_scene(options, {folder / "a.relevo"}));
+    options.memory_bytes = plan_import(options)->memory_bytes;
+    ASSERT_TRUE(import_scene(options, {folder / "b.relevo"}));
+    EXPECT_EQ(test::all_files(folder / "a.relevo"), test::all_files(folder / "b.relevo"));
+    options.memory_bytes = 1 << 20;
+    const auto refusal = import_scene(options, {folder / "c.relevo"});
+    ASSERT_FALSE(refusal);
+    EXPECT_TRUE(test::says(refusal.error().message, {"MiB", "--memory"}));
+}
+
+TEST(Import, AWholeNumberThatIsTheCodeForVoidIsKept) {
+    const SceneFolder folder;
+    SyntheticRaster raster;
+    raster.nodata = 7;
+    raster.value = [](int c, int r) { return c == 3 && r == 3 ? -32768 : 100 + c; };
+    const auto scene = imported(folder, options_for(raster.write(folder / "a.tif")));
+    EXPECT_EQ(scene.info.height_type, lod::HeightType::float32);
+    EXPECT_EQ(scene.heights.at(3, 3), -32768);
+}
+
+TEST(Import, StatedLossMakesItSmallerAndIsNotExceeded) {
+    const SceneFolder folder;
+    SyntheticRaster raster = three_blocks();
+    raster.nodata = -9999;
+    raster.value = [](int c, int r) {
+        return c % 97 == 0 && r > 20 ? -9999 : rough(c, r) + 0.137 * (c % 29);
+    };
+    auto options = options_for(raster.write(folder / "a.tif"));
+    const auto exact = imported(folder, options);
+    options.max_height_error_m = 0.25;
+    const auto lossy = imported(folder, options);
+    double largest = 0;
+    for (std::size_t i = 0; i < exact.heights.samples().size(); ++i) {
+        const float a = exact.heights.samples()[i];
+        const float b = lossy.heights.samples()[i];
+        ASSERT_EQ(std::isnan(a), std::isnan(b)) << "a void stays a void, and nothing else becomes one";
+        if (!std::isnan(a)) largest = std::max(largest, std::abs(static_cast<double>(a - b)));
+    }
+    EXPECT_GT(largest, 0.1);
+    EXPECT_LE(largest, 0.25 + 1e-4);
+    EXPECT_EQ(lossy.info.max_height_error_m, 0.25);
+    EXPECT_NEAR(lossy.info.resampling.max_m, largest, 1e-4) << "and it is reported";
+    const auto bytes = [](const lod::SceneInfo& info) {
+        std::uint64_t sum = 0;
+        for (const auto& block : info.heights) sum += block.bytes;
+        return sum;
+    };
+    EXPECT_LT(bytes(lossy.info), bytes(exact.info) * 6 / 10);
 }
 
 TEST(Import, StrangeHeightsAreNoted) {

@@ -36,14 +36,14 @@ struct ImportedScene {
 
 inline ingest::ImportOptions options_for(const std::filesystem::path& input) {
     ingest::ImportOptions options;
-    options.source.input = input.string();
+    options.mosaic.sources.emplace_back().input = input.string();
     return options;
 }
 
 /// Imports into the folder and reads the scene back; a failure fails the test and gives an empty scene.
 inline ImportedScene imported(const SceneFolder& folder, const ingest::ImportOptions& options) {
     const auto place = folder / "scene.relevo";
-    auto done = ingest::import_scene(options, place, true);
+    auto done = ingest::import_scene(options, {.scene = place, .overwrite = true});
     if (!done) {
         ADD_FAILURE() << done.error().message;
         return {};
@@ -59,7 +59,7 @@ inline ImportedScene imported(const SceneFolder& folder, const ingest::ImportOpt
 /// The message of an import that must be refused as an input, with nothing left behind.
 inline std::string refused(const SceneFolder& folder, const ingest::ImportOptions& options) {
     const auto place = folder / "refused.relevo";
-    const auto done = ingest::import_scene(options, place, false);
+    const auto done = ingest::import_scene(options, {.scene = place});
     EXPECT_FALSE(done);
     EXPECT_FALSE(std::filesystem::exists(place));
     if (done) return "imported";

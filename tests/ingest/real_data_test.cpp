@@ -23,7 +23,7 @@ TEST_P(KeptPosts, AreWhatGdalReads) {
     const SceneFolder folder;
     auto options = options_for(shared_data(GetParam()));
     const bool has_crs = std::string{GetParam()}.find(".nc") == std::string::npos;
-    if (!has_crs) options.source.crs = "EPSG:4326";
+    if (!has_crs) options.mosaic.sources.front().crs = "EPSG:4326";
     const auto scene = imported(folder, options);
     ASSERT_EQ(scene.info.resampling_method, "none");
     EXPECT_EQ(scene.info.height_type, lod::HeightType::int16);
@@ -95,9 +95,9 @@ TEST(RealData, SaintHelensIsShiftedFromNad27) {
     RELEVO_NEEDS_DATA("odd/SainteHelens.dem");
     const auto plan = plan_import(options_for(shared_data("odd/SainteHelens.dem")));
     ASSERT_TRUE(plan) << plan.error().message;
-    EXPECT_EQ(plan->source.crs, "EPSG:26710");
-    ASSERT_TRUE(plan->source.operation_accuracy_m);
-    EXPECT_TRUE(*plan->source.operation_accuracy_m < 3 || !plan->source.operation_note.empty());
+    EXPECT_EQ(plan->sources[0].crs, "EPSG:26710");
+    ASSERT_TRUE(plan->sources[0].operation_accuracy_m);
+    EXPECT_TRUE(*plan->sources[0].operation_accuracy_m < 3 || !plan->sources[0].operation_note.empty());
     EXPECT_NEAR(plan->frame.north, 46.2510 - 0.0002, 0.0005);
 }
 
@@ -139,8 +139,8 @@ TEST(RealData, RefusalsWithTheirRemedies) {
     auto airport = options_for(shared_data("odd/santa_barbara_airport.tif"));
     EXPECT_TRUE(
         test::says(refused(folder, airport), {"santa_barbara_airport.tif", "--crs EPSG:4326", "corrupt"}));
-    airport.source.crs = "EPSG:4326";
-    airport.source.bounds = Bounds{-119.8337, 34.4293, -119.8182, 34.4448};
+    airport.mosaic.sources[0].crs = "EPSG:4326";
+    airport.mosaic.sources[0].bounds = Bounds{-119.8337, 34.4293, -119.8182, 34.4448};
     const auto scene = imported(folder, airport);
     EXPECT_NEAR(scene.info.height_min_m, 2.5, 0.5);
     EXPECT_NEAR(scene.info.height_max_m, 20.7, 0.5);
@@ -151,9 +151,9 @@ TEST(RealData, RefusalsWithTheirRemedies) {
 
     auto antarctica = options_for(shared_data("odd/BEDMAP_elevation.nc"));
     EXPECT_TRUE(test::says(refused(folder, antarctica), {"--crs"}));
-    antarctica.source.crs = "EPSG:3031";
+    antarctica.mosaic.sources[0].crs = "EPSG:3031";
     EXPECT_TRUE(test::says(refused(folder, antarctica), {"pole", "--crop"}));
-    antarctica.target.crop = Bounds{-70, -82, -50, -75};
+    antarctica.mosaic.target.crop = Bounds{-70, -82, -50, -75};
     EXPECT_GT(imported(folder, antarctica).info.valid_posts, 10000U);
 }
 

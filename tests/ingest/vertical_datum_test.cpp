@@ -97,8 +97,8 @@ TEST(GeoidOf, AMissingGridIsNamed) {
         EXPECT_TRUE(test::says(geoid.error().message, {"--geoid", "PROJ_DATA", reference.name.c_str()}));
     };
     missing("EPSG:4326+3855", {}, {"us_nga_egm08_25.tif"});
-    missing("EPSG:32611+5703", Bounds{-118, 34, -117, 35}, {"us_noaa_g2018u0.tif"});   // California
-    missing("EPSG:32611+6360", Bounds{-150, 60, -149, 61}, {"us_noaa_g"});  // Alaska
+    missing("EPSG:32611+5703", Bounds{-118, 34, -117, 35}, {"us_noaa_g2018u0.tif"});  // California
+    missing("EPSG:32611+6360", Bounds{-150, 60, -149, 61}, {"us_noaa_g"});            // Alaska
     missing("EPSG:25832+7837", Bounds{9, 48, 10, 49}, {"DHHN2016 height"});
     const auto unknown = geoid_of({VerticalDatum::other, "the harbour's gauge", false}, {});
     ASSERT_FALSE(unknown);

@@ -1,0 +1,116 @@
+#include "ingest/import_passes.hpp"
+
+#include <vector>
+
+#include "ingest/blocks_in_order.hpp"
+#include "ingest/survey.hpp"
+#include "lod/scene/scene_files.hpp"
+#include "lod/soar/metrics.hpp"
+#include "lod/soar/stored_metrics.hpp"
+
+namespace relevo::ingest {
+namespace {
+
+using lod::BlockGrid;
+
+struct BlockPlace {
+    int column;
+    int row;
+};
+
+BlockPlace place_of(const BlockGrid& grid, int i) {
+    return {i % grid.across, i / grid.across};
+}
+
+/// The part of a box and of what is around it that the data covers, and where the box is in it.
+Window inside_of(const BlockGrid::Box& around, const BlockGrid::Box& box) {
+    return {box.column - around.column, box.row - around.row, box.columns, box.rows};
+}
+
+Result<void> write_lattice(const lod::MetricRasters& lattice, int padded_side,
+                           const lod::SceneWriter& writer) {
+    auto layer = writer.layer(lod::kLatticeFolder);
+    if (!layer) return layer.error();
+    const BlockGrid grid = BlockGrid::of_lattice(padded_side);
+    const Progress none;
+    return blocks_in_order(grid.count(), Stage{none, 0, 1}, [&](int i) -> Result<void> {
+        const auto [column, row] = place_of(grid, i);
+        const BlockGrid::Box box = grid.box(column, row);
+        const auto bytes =
+            lod::encode_metrics({lod::part_of(lattice.bounded, box), lod::part_of(lattice.incremental, box),
+                                 lod::part_of(lattice.radius, box)});
+        if (!bytes) return bytes.error();
+        return layer->write(column, row, *bytes);
+    });
+}
+
+}  // namespace
+
+Result<Copied> copy_posts(const Mosaic& mosaic, lod::HeightType type, lod::DraftPosts& posts,
+                          lod::MeshHeights& fill, const Stage& stage) {
+    const BlockGrid& grid = posts.grid();
+    std::atomic<bool> too_wide = false;
+    const auto done = blocks_in_order(grid.count(), stage, [&](int i) -> Result<void> {
+        if (too_wide) return {};
+        const auto [column, row] = place_of(grid, i);
+        const BlockGrid::Box box = grid.box(column, row);
+        if (!posts.has(column, row)) {
+            auto read = mosaic.read({box.column, box.row, box.columns, box.rows});
+            if (!read) return read.error();
+            if (type == lod::HeightType::int16 && !fits_int16(read->heights)) {
+                too_wide = true;
+                return {};
+            }
+            const lod::Posts block{std::move(read->heights), std::move(read->marks)};
+            if (auto written = posts.write(column, row, block); !written) return written;
+        }
+        // As stored, which may differ from what was read where heights are stored with loss.
+        const auto stored = posts.read(column, row);
+        if (!stored) return stored.error();
+        fill.add(box.column, box.row, (*stored)->heights);
+        return {};
+    });
+    if (!done) return done.error();
+    if (too_wide) return Copied::too_wide_for_int16;
+    fill.finish();
+    return Copied::all;
+}
+
+Result<void> measure_posts(const lod::DraftPosts& posts, const lod::MeshHeights& fill,
+                           const lod::UndulationGrid& undulations, const lod::SceneWriter& writer,
+                           lod::SceneInfo& info, const Stage& stage) {
+    const geo::GridFrame& frame = info.frame;
+    const geo::PostPositions positions(frame);
+    lod::MetricBuilder metrics(
+        {frame, positions, undulations, fill},
+        info.bounded_errors ? lod::MetricBuilder::Errors::both : lod::MetricBuilder::Errors::incremental);
+    auto layer = writer.layer(lod::kMetricsFolder);
+    if (!layer) return layer.error();
+    const int side = frame.padded_side();
+    const BlockGrid tiles = BlockGrid::of_metrics(side);
+    std::vector<Survey> surveys(static_cast<std::size_t>(tiles.count()));
+    const auto done = blocks_in_order(tiles.count(), stage, [&](int i) -> Result<void> {
+        const auto [column, row] = place_of(tiles, i);
+        const BlockGrid::Box tile = tiles.box(column, row);
+        const BlockGrid::Box window = lod::MetricTile::window_of(tile, side);
+        const auto around = posts.read(window);
+        if (!around) return around.error();
+        const auto bytes = lod::encode_metrics(lod::stored_part(metrics.add_tile(tile, around->heights)));
+        if (!bytes) return bytes.error();
+        if (auto written = layer->write(column, row, *bytes); !written) return written;
+
+        Window inside = inside_of(window, tile);
+        inside.columns = std::min(inside.columns, around->heights.columns() - inside.column);
+        inside.rows = std::min(inside.rows, around->heights.rows() - inside.row);
+        if (inside.columns > 0 && inside.rows > 0)
+            surveys[static_cast<std::size_t>(i)] = Survey(*around, inside);
+        return {};
+    });
+    if (!done) return done;
+    Survey all;
+    for (const Survey& part : surveys) all.join(part);
+    all.put_into(info);
+    return write_lattice(metrics.finish(), side, writer);
+}
+
+}  // namespace relevo::ingest

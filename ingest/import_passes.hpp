@@ -1,0 +1,26 @@
+#pragma once
+
+#include "ingest/mosaic.hpp"
+#include "ingest/progress.hpp"
+#include "lod/mesh_heights.hpp"
+#include "lod/scene/draft_posts.hpp"
+#include "lod/scene/scene_writer.hpp"
+#include "lod/undulation_grid.hpp"
+
+namespace relevo::ingest {
+
+// The steps of an import. Each goes once over the blocks of the scene in their order, on all cores.
+
+enum class Copied { all, too_wide_for_int16 };
+
+/// Reads the posts of all blocks that are not finished from the sources and writes them; gives the mesh's
+/// fill what was written. Stops where a height does not fit int16.
+Result<Copied> copy_posts(const Mosaic& mosaic, lod::HeightType type, lod::DraftPosts& posts,
+                          lod::MeshHeights& fill, const Stage& stage);
+
+/// Builds and writes the metrics of finished posts, and fills in what `info` says of these.
+Result<void> measure_posts(const lod::DraftPosts& posts, const lod::MeshHeights& fill,
+                           const lod::UndulationGrid& undulations, const lod::SceneWriter& writer,
+                           lod::SceneInfo& info, const Stage& stage);
+
+}  // namespace relevo::ingest

@@ -1,0 +1,62 @@
+#include "ingest/job.hpp"
+
+#include <gdal.h>
+#include <nlohmann/json.hpp>
+#include <proj.h>
+
+namespace relevo::ingest {
+namespace {
+
+template <class T>
+nlohmann::json or_null(const std::optional<T>& value) {
+    return value ? nlohmann::json(*value) : nlohmann::json();
+}
+
+nlohmann::json bounds_json(const std::optional<Bounds>& bounds) {
+    if (!bounds) return {};
+    return {bounds->west, bounds->south, bounds->east, bounds->north};
+}
+
+nlohmann::json request_json(const SourceRequest& request) {
+    return {{"input", request.input},
+            {"crs", or_null(request.crs)},
+            {"bounds", bounds_json(request.bounds)},
+            {"nodata", or_null(request.nodata)},
+            {"height_scale", or_null(request.height_scale)},
+            {"height_offset", request.height_offset},
+            {"vertical",
+             request.vertical ? nlohmann::json(lod::to_string(*request.vertical)) : nlohmann::json()}};
+}
+
+nlohmann::json file_json(const std::filesystem::path& file) {
+    if (file.empty()) return {};
+    std::error_code unknown;
+    const auto path = std::filesystem::absolute(file, unknown).string();
+    return {path, std::filesystem::file_size(file, unknown),
+            std::filesystem::last_write_time(file, unknown).time_since_epoch().count()};
+}
+
+}  // namespace
+
+std::string job_text(const ImportOptions& options, const std::vector<std::filesystem::path>& files,
+                     lod::HeightType type) {
+    const MosaicRequest& mosaic = options.mosaic;
+    nlohmann::json job{{"format", lod::SceneInfo::kFormatVersion},
+                       {"gdal", GDALVersionInfo("RELEASE_NAME")},
+                       {"proj", proj_info().release},
+                       {"type", lod::to_string(type)},
+                       {"max_height_error_m", options.max_height_error_m},
+                       {"bounded_errors", options.bounded_errors},
+                       {"crop", bounds_json(mosaic.target.crop)},
+                       {"resolution", or_null(mosaic.target.resolution)},
+                       {"resampling", mosaic.resampling ? to_string(*mosaic.resampling) : ""},
+                       {"priority", mosaic.priority == Priority::order ? "order" : "finest"},
+                       {"feather_m", mosaic.feather_m},
+                       {"datum", mosaic.datum ? lod::to_string(*mosaic.datum) : ""},
+                       {"geoid", mosaic.geoid ? mosaic.geoid->string() : ""}};
+    for (const SourceRequest& request : mosaic.sources) job["sources"].push_back(request_json(request));
+    for (const auto& file : files) job["files"].push_back(file_json(file));
+    return job.dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace relevo::ingest
