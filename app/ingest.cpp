@@ -13,6 +13,7 @@
 #include "app/source_flags.hpp"
 #include "ingest/import.hpp"
 #include "ingest/inputs.hpp"
+#include "ingest/vertical_datum.hpp"
 
 namespace relevo::app {
 namespace {
@@ -103,7 +104,11 @@ Result<ingest::ImportOptions> options_of(const Settings& s) {
     mosaic.resampling = ingest::resampling_from(s.resampling);
     mosaic.priority = s.priority == "order" ? ingest::Priority::order : ingest::Priority::finest;
     mosaic.feather_m = s.feather;
-    mosaic.datum = datum_from(s.datum);
+    if (!s.datum.empty()) {
+        auto datum = ingest::vertical_reference_named(s.datum);
+        if (!datum) return datum.error();
+        mosaic.datum = std::move(*datum);
+    }
     if (!s.geoid.empty()) mosaic.geoid = s.geoid;
     options.max_height_error_m = s.max_height_error;
     options.bounded_errors = s.errors == "bounded";
@@ -261,9 +266,9 @@ void add_ingest(CLI::App& program, Action& action) {
     command.add_option("--vertical", s.vertical, "What heights are above, in place of what the file says")
         ->check(CLI::IsMember({"egm96", "ellipsoid"}));
     s.source.add_to(command);
-    command
-        .add_option("--datum", s.datum, "What the scene's heights are above; default: the finest source's")
-        ->check(CLI::IsMember({"egm96", "ellipsoid"}));
+    command.add_option("--datum", s.datum,
+                       "What the scene's heights are above: egm96, ellipsoid, or a datum that PROJ "
+                       "knows; default: the finest source's");
     command.add_option("--geoid", s.geoid, "A grid of undulations for heights above another datum");
     command.add_option("--priority", s.priority, "Where inputs overlap: the finest wins, or the first given")
         ->check(CLI::IsMember({"finest", "order"}))

@@ -52,7 +52,7 @@ std::string job_text(const ImportOptions& options, const std::vector<std::filesy
                        {"resampling", mosaic.resampling ? to_string(*mosaic.resampling) : ""},
                        {"priority", mosaic.priority == Priority::order ? "order" : "finest"},
                        {"feather_m", mosaic.feather_m},
-                       {"datum", mosaic.datum ? lod::to_string(*mosaic.datum) : ""},
+                       {"datum", mosaic.datum ? mosaic.datum->name : ""},
                        {"geoid", mosaic.geoid ? mosaic.geoid->string() : ""}};
     for (const SourceRequest& request : mosaic.sources) job["sources"].push_back(request_json(request));
     for (const auto& file : files) job["files"].push_back(file_json(file));

@@ -103,8 +103,8 @@ TEST(Units, ADisagreementStopsTheImport) {
         EXPECT_TRUE(
             test::says(test::refused(folder, options), {"torn.tif", c.unit, "NAVD88", "--height-scale"}))
             << c.unit << " " << c.crs;
-        options.source.height_scale = 0.3048;
-        EXPECT_NEAR(read_all(options.source, "told").at(0, 0), 100 * 0.3048, 1e-9);
+        options.mosaic.sources.front().height_scale = 0.3048;
+        EXPECT_NEAR(read_all(options.mosaic.sources.front(), "told").at(0, 0), 100 * 0.3048, 1e-9);
     }
 }
 
