@@ -12,6 +12,7 @@
 #include "ingest/job.hpp"
 #include "ingest/memory_budget.hpp"
 #include "ingest/refusal.hpp"
+#include "ingest/suspicions.hpp"
 #include "ingest/vertical_datum.hpp"
 #include "lod/scene/parallel_blocks.hpp"
 #include "lod/scene/scene.hpp"
@@ -47,6 +48,8 @@ ImportPlan plan_of(const Mosaic& mosaic, const ImportOptions& options) {
     for (const auto& source : plan.sources) {
         if (!source.operation_note.empty()) plan.notes.push_back(source.operation_note);
     }
+    const auto suspected = suspicions_about(options.mosaic.sources);
+    plan.notes.insert(plan.notes.end(), suspected.begin(), suspected.end());
     return plan;
 }
 
