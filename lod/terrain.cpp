@@ -16,12 +16,13 @@ Result<Terrain> Terrain::load(const Scene& scene, ErrorMetric metric) {
 }
 
 Terrain::Terrain(const geo::GridFrame& frame, UndulationGrid undulations, Raster<float> heights,
-                 const MetricRasters& metrics, ErrorMetric metric)
+                 const MetricRasters& metrics, ErrorMetric metric, Raster<std::uint8_t> sea)
     : frame_(frame),
       levels_(frame.levels()),
       positions_(frame),
       undulations_(std::move(undulations)),
       heights_(std::move(heights)),
+      sea_(std::move(sea)),
       level_bounds_(lod::level_bounds(frame_, undulations_)) {
     const Raster<float> filled = mesh_heights(frame_, heights_);
     const Raster<std::uint16_t>& errors =
@@ -33,7 +34,7 @@ Terrain::Terrain(const geo::GridFrame& frame, UndulationGrid undulations, Raster
 }
 
 std::uint64_t Terrain::memory_bytes() const {
-    return posts_.size() * sizeof(Post) + heights_.samples().size() * sizeof(float) +
+    return posts_.size() * sizeof(Post) + heights_.samples().size() * sizeof(float) + sea_.samples().size() +
            undulations_.nodes().samples().size() * sizeof(float);
 }
 

@@ -30,8 +30,9 @@ class Terrain {
     static Result<Terrain> load(const Scene& scene, ErrorMetric metric);
 
     /// From parts in memory: heights of the data (void = NaN) and the chosen metric's errors and radii.
+    /// \param sea  255 at posts of the class sea, else 0; empty: there is none
     Terrain(const geo::GridFrame& frame, UndulationGrid undulations, Raster<float> heights,
-            const MetricRasters& metrics, ErrorMetric metric);
+            const MetricRasters& metrics, ErrorMetric metric, Raster<std::uint8_t> sea = {});
 
     const geo::GridFrame& frame() const { return frame_; }
     int levels() const { return levels_; }  ///< n: the grid has 2^n + 1 posts a side
@@ -48,6 +49,9 @@ class Terrain {
 
     /// By vertex level: what an exaggeration adds to errors and radii.
     const std::vector<LevelBound>& level_bounds() const { return level_bounds_; }
+
+    /// 255 at posts of the class sea, else 0; of no size where there is none.
+    const Raster<std::uint8_t>& sea() const { return sea_; }
 
     std::uint64_t memory_bytes() const;
 
@@ -68,6 +72,7 @@ class Terrain {
     geo::PostPositions positions_;
     UndulationGrid undulations_;
     Raster<float> heights_;
+    Raster<std::uint8_t> sea_;
     std::vector<Post> posts_;
     std::vector<LevelBound> level_bounds_;
 };

@@ -26,7 +26,7 @@ constexpr std::array<Stop, 7> kHypsometric{{{0.00, 72, 120, 84},
                                             {1.00, 250, 250, 252}}};
 
 // From the shore down. Its lightest is darker than the green of the shore's other side: the coast is a line.
-constexpr std::array<Stop, 4> kBelowZero{
+constexpr std::array<Stop, 4> kSea{
     {{0.00, 118, 170, 190}, {0.15, 90, 146, 178}, {0.50, 58, 108, 154}, {1.00, 30, 62, 112}}};
 
 // Flat is nearly white, steep is dark: yellow at 15 degrees, orange at 30, red at 40, purple beyond.
@@ -48,6 +48,8 @@ std::array<std::uint8_t, 4> colour_at(std::span<const Stop> stops, double at) {
     };
     return {mixed(low.red, high.red), mixed(low.green, high.green), mixed(low.blue, high.blue), 255};
 }
+
+constexpr int kTexels = 4096;  // of 2 m on the whole earth
 
 }  // namespace
 
@@ -80,24 +82,31 @@ Result<Layer> parse_layer(std::string_view text) {
                  fmt::format("no layer \"{}\": hypsometric, hillshade, slope or lod", text)};
 }
 
-std::vector<std::array<std::uint8_t, 4>> colour_ramp(Layer layer, double low, double high) {
-    constexpr int kTexels = 4096;  // of 2 m on the whole earth: a coast is to be a line
-    // Both sides of 0 on one scale, so that the shallows of a scene that has nothing deeper look shallow.
-    const double reach = std::max(std::abs(low), std::abs(high));
-    const double bottom = std::max(low, 0.0);
-    const double step = (high - low) / (kTexels - 1);
+std::vector<std::array<std::uint8_t, 4>> colour_ramp(Layer layer, const HeightSpan& span) {
     std::vector<std::array<std::uint8_t, 4>> colours;
     colours.reserve(kTexels);
     for (int i = 0; i < kTexels; ++i) {
         const double at = i / (kTexels - 1.0);
-        const double H = low + i * step;
         if (layer == Layer::slope) {
             colours.push_back(colour_at(kSlope, at));
-        } else if (low <= 0 && H < step) {  // 0 lies between two texels, and both have to be blue
-            colours.push_back(colour_at(kBelowZero, reach > 0 ? std::max(-H, 0.0) / reach : 0));
-        } else {
-            colours.push_back(colour_at(kHypsometric, high > bottom ? (H - bottom) / (high - bottom) : 0.5));
+            continue;
         }
+        const double H = span.low + at * (span.high - span.low);
+        const double of_land =
+            span.high > span.land_low ? (H - span.land_low) / (span.high - span.land_low) : 0.5;
+        colours.push_back(colour_at(kHypsometric, std::clamp(of_land, 0.0, 1.0)));
+    }
+    return colours;
+}
+
+std::vector<std::array<std::uint8_t, 4>> sea_ramp(const HeightSpan& span) {
+    // Both sides of 0 on one scale, so that the shallows of a scene that has nothing deeper look shallow.
+    const double reach = std::max(std::abs(span.low), std::abs(span.high));
+    std::vector<std::array<std::uint8_t, 4>> colours;
+    colours.reserve(kTexels);
+    for (int i = 0; i < kTexels; ++i) {
+        const double H = span.low + i * (span.high - span.low) / (kTexels - 1);
+        colours.push_back(colour_at(kSea, reach > 0 ? std::max(-H, 0.0) / reach : 0));
     }
     return colours;
 }

@@ -20,10 +20,19 @@ enum class Layer {
 std::string_view to_string(Layer layer);
 Result<Layer> parse_layer(std::string_view text);
 
+/// The heights of a scene, metres.
+struct HeightSpan {
+    double low = 0;
+    double high = 1;
+    double land_low = 0;  ///< the lowest that is not sea
+};
+
 /// A layer's colours from its lowest value to its highest, RGBA. Lightness changes steadily along each, so
-/// that equal steps of height or slope look equal and a grey copy still reads. Tints of heights up to 0,
-/// which is what most files say of the sea, are blue, deeper is darker; above they begin anew with green.
-/// \param low, high  the scene's heights, metres; only tints need them
-std::vector<std::array<std::uint8_t, 4>> colour_ramp(Layer layer, double low = 0, double high = 1);
+/// that equal steps of height or slope look equal and a grey copy still reads. Tints are those of land, from
+/// green at its lowest; land below sea level is as green as any. \param span  only tints need it
+std::vector<std::array<std::uint8_t, 4>> colour_ramp(Layer layer, const HeightSpan& span = {});
+
+/// Tints of the sea over the same heights: blue, deeper is darker.
+std::vector<std::array<std::uint8_t, 4>> sea_ramp(const HeightSpan& span);
 
 }  // namespace relevo::viewer

@@ -19,6 +19,7 @@ constexpr GLuint kFrameBinding = 0;
 constexpr GLuint kPostsUnit = 0;
 constexpr GLuint kCellsUnit = 1;
 constexpr GLuint kRampUnit = 2;
+constexpr GLuint kSeaUnit = 3;
 
 /// Fills a buffer that is made anew every frame. Fresh storage of the same size lets the driver keep the old
 /// one for a frame that is still being drawn.
@@ -61,12 +62,15 @@ Result<Renderer> Renderer::create(const lod::Terrain& terrain) {
 Result<void> Renderer::make_ramps() {
     const std::array<Layer, 2> layers{Layer::hypsometric, Layer::slope};
     for (std::size_t i = 0; i < layers.size(); ++i) {
-        const auto colours = colour_ramp(layers[i], textures_.lowest_m, textures_.highest_m);
+        const HeightSpan span{textures_.lowest_m, textures_.highest_m, textures_.lowest_land_m};
+        const auto colours = colour_ramp(layers[i], span);
+        const auto sea = sea_ramp(span);
         ramps_[i] = GlTexture(create_gl_texture(GL_TEXTURE_2D));
         const GlName name = ramps_[i].name();
         const auto width = static_cast<GLsizei>(colours.size());
-        glTextureStorage2D(name, 1, GL_RGBA8, width, 1);
+        glTextureStorage2D(name, 1, GL_RGBA8, width, 2);
         glTextureSubImage2D(name, 0, 0, 0, width, 1, GL_RGBA, GL_UNSIGNED_BYTE, colours.data());
+        glTextureSubImage2D(name, 0, 0, 1, width, 1, GL_RGBA, GL_UNSIGNED_BYTE, sea.data());
         glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
         glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
         glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -102,6 +106,7 @@ Result<GlName> Renderer::terrain_program(const Variant& variant) {
     if (textures_.has_voids()) defines += "#define VOIDS\n";
     if (const auto* polar = terrain_->positions().polar())
         defines += fmt::format("#define POLE {:.1f}\n", polar->plane().pole);
+    if (textures_.has_sea()) defines += "#define SEA\n";
     auto program =
         build_program({.name = "terrain",
                        .defines = std::move(defines),
@@ -147,6 +152,7 @@ Result<DrawFigures> Renderer::draw(const lod::View& view, const DrawSettings& se
         glBindVertexArray(vertex_array_.name());
         glBindTextureUnit(kPostsUnit, textures_.posts.name());
         glBindTextureUnit(kCellsUnit, textures_.cells.name());
+        glBindTextureUnit(kSeaUnit, textures_.sea.name());
         glBindTextureUnit(kRampUnit, ramps_[settings.layer == Layer::slope ? 1 : 0].name());
         glEnable(GL_CLIP_DISTANCE0);
         glEnable(GL_CLIP_DISTANCE1);

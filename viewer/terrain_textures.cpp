@@ -38,19 +38,24 @@ double slope(float before, float here, float after, double spacing) {
 struct HeightRange {
     double lowest = std::numeric_limits<double>::infinity();
     double highest = -std::numeric_limits<double>::infinity();
+    double lowest_land = std::numeric_limits<double>::infinity();
     bool has_voids = false;
 };
 
-HeightRange height_range(const Heights& heights) {
+HeightRange height_range(const Heights& heights, const lod::Raster<std::uint8_t>& sea) {
     HeightRange range;
-    for (const float H : heights.samples()) {
+    for (std::size_t i = 0; i < heights.samples().size(); ++i) {
+        const float H = heights.samples()[i];
         if (std::isnan(H)) {
             range.has_voids = true;
-        } else {
-            range.lowest = std::min(range.lowest, static_cast<double>(H));
-            range.highest = std::max(range.highest, static_cast<double>(H));
+            continue;
         }
+        range.lowest = std::min(range.lowest, static_cast<double>(H));
+        range.highest = std::max(range.highest, static_cast<double>(H));
+        const bool is_sea = !sea.samples().empty() && sea.samples()[i] != 0;
+        if (!is_sea) range.lowest_land = std::min(range.lowest_land, static_cast<double>(H));
     }
+    range.lowest_land = std::min(range.lowest_land, range.highest);
     return range;
 }
 
@@ -146,13 +151,14 @@ Result<TerrainTextures> build_terrain_textures(const lod::Terrain& terrain) {
                 "import a smaller part with --crop",
                 columns, rows, most)};
     }
-    const HeightRange range = height_range(heights);
+    const HeightRange range = height_range(heights, terrain.sea());
     const auto larger = static_cast<unsigned>(std::max(columns, rows));
 
     TerrainTextures textures;
     if (range.lowest <= range.highest) {
         textures.lowest_m = range.lowest;
         textures.highest_m = range.highest;
+        textures.lowest_land_m = range.lowest_land;
     }
     textures.posts = GlTexture(create_gl_texture(GL_TEXTURE_2D));
     const GlName posts = textures.posts.name();
@@ -164,6 +170,21 @@ Result<TerrainTextures> build_terrain_textures(const lod::Terrain& terrain) {
     glTextureParameteri(posts, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTextureParameteri(posts, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTextureParameteri(posts, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+
+    if (!terrain.sea().samples().empty()) {
+        textures.sea = GlTexture(create_gl_texture(GL_TEXTURE_2D));
+        const GlName sea = textures.sea.name();
+        glTextureStorage2D(sea, std::bit_width(larger), GL_R8, columns, rows);
+        glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+        glTextureSubImage2D(sea, 0, 0, 0, columns, rows, GL_RED, GL_UNSIGNED_BYTE,
+                            terrain.sea().samples().data());
+        glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+        glGenerateTextureMipmap(sea);
+        glTextureParameteri(sea, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+        glTextureParameteri(sea, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+        glTextureParameteri(sea, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        glTextureParameteri(sea, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    }
 
     if (range.has_voids) {
         textures.cells = GlTexture(create_gl_texture(GL_TEXTURE_2D));

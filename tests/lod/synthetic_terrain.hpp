@@ -50,8 +50,10 @@ lod::Raster<float> make_heights(const geo::GridFrame& frame, Height height) {
 
 inline lod::Terrain make_terrain(const geo::GridFrame& frame, const lod::Raster<float>& heights,
                                  lod::ErrorMetric metric = lod::ErrorMetric::bounded,
-                                 const lod::UndulationGrid& undulations = {}) {
-    return lod::Terrain(frame, undulations, heights, lod::build_metrics(frame, undulations, heights), metric);
+                                 const lod::UndulationGrid& undulations = {},
+                                 const lod::Raster<std::uint8_t>& sea = {}) {
+    return lod::Terrain(frame, undulations, heights, lod::build_metrics(frame, undulations, heights), metric,
+                        sea);
 }
 
 /// The same number for the same place on every machine, in [0, 1).

@@ -10,7 +10,8 @@ namespace {
 
 using viewer::Layer;
 
-constexpr double kStepM = 30.87;  // 1" of latitude at 36 degrees
+constexpr double kStepM = 30.87;                           // 1" of latitude at 36 degrees
+const double kFlat = 0.32 + 0.12 + 0.75 * std::sqrt(0.5);  // the shade of flat ground
 
 /// A plane that rises to the east by `rise` metres a metre.
 lod::Terrain plane(double rise) {
@@ -103,28 +104,57 @@ TEST(Colours, TintsRunOverTheScenesHeights) {
     // Two flats, with a step between them: tints are of heights, lit as flat ground is.
     Studio studio(make_terrain(
         frame, make_heights(frame, [](int column, int) { return column < 32 ? -50.0 : 3200.0; })));
-    const auto ramp = viewer::colour_ramp(Layer::hypsometric, -50, 3200);
-    const double flat = 0.32 + 0.12 + 0.75 * std::sqrt(0.5);
+    const auto ramp = viewer::colour_ramp(Layer::hypsometric, {-50, 3200, -50});
     for (const auto& [column, expected] : {std::pair(10, ramp.front()), std::pair(54, ramp.back())}) {
         const auto picture = studio.draw(above_looking_down(studio.terrain(), column, 32, 200, 20, 20),
                                          {.background = kMagenta});
-        expect_near(centre(picture), expected, flat);
+        expect_near(centre(picture), expected, kFlat);
     }
 }
 
-TEST(Colours, TintsChangeAtZeroAndRiseInLightness) {
+/// What is sea is told by its class and not by its height: a polder is green, an estuary above 0 blue.
+TEST(Colours, TheSeaIsBlueAndAPolderIsGreen) {
+    const auto frame = geographic_frame(65, 65);
+    const auto heights = make_heights(frame, [](int column, int row) {
+        if (row > 32) return column < 32 ? -20.0 : 1.0;
+        return column < 32 ? 0.0 : -20.0;
+    });
+    lod::Raster<std::uint8_t> sea(65, 65);
+    for (int row = 0; row < 65; ++row) {
+        for (int column = 0; column < 65; ++column)
+            sea.at(column, row) = (row > 32) == (column >= 32) ? 255 : 0;
+    }
+    Studio studio(make_terrain(frame, heights, lod::ErrorMetric::bounded, {}, sea));
+    const viewer::HeightSpan span{-20, 1, -20};
+    const auto land = viewer::colour_ramp(Layer::hypsometric, span);
+    const auto water = viewer::sea_ramp(span);
+    const auto at = [&](const auto& ramp, double H) {
+        return ramp[static_cast<std::size_t>(
+            std::lround((H + 20) / 21 * static_cast<double>(ramp.size() - 1)))];
+    };
+    const auto shown = [&](int column, int row) {
+        return centre(studio.draw(above_looking_down(studio.terrain(), column, row, 200, 20, 20),
+                                  {.background = kMagenta}));
+    };
+    expect_near(shown(10, 10), at(water, 0), kFlat);
+    expect_near(shown(54, 10), at(land, -20), kFlat);  // a polder
+    expect_near(shown(10, 54), at(land, -20), kFlat);
+    expect_near(shown(54, 54), at(water, 1), kFlat);
+}
+
+TEST(Colours, TintsRiseInLightness) {
     const auto lightness = [](const std::array<std::uint8_t, 4>& c) {
         return 0.2126 * std::pow(c[0] / 255.0, 2.2) + 0.7152 * std::pow(c[1] / 255.0, 2.2) +
                0.0722 * std::pow(c[2] / 255.0, 2.2);
     };
-    const auto ramp = viewer::colour_ramp(Layer::hypsometric, -1000, 1000);
-    const std::size_t zero = ramp.size() / 2;
-    EXPECT_GT(ramp[zero - 1][2], ramp[zero - 1][1]);  // blue
-    EXPECT_GT(ramp[zero + 1][1], ramp[zero + 1][2]);  // green
-    for (std::size_t i = 1; i < ramp.size(); ++i) {
-        if (i < zero || i > zero + 1) {
-            EXPECT_GE(lightness(ramp[i]), lightness(ramp[i - 1]) - 0.004) << i;
-        }
+    const auto land = viewer::colour_ramp(Layer::hypsometric, {-1000, 1000, -400});
+    const auto sea = viewer::sea_ramp({-1000, 1000, -400});
+    for (std::size_t i = 0; i < land.size(); ++i) {
+        EXPECT_GT(land[i][1], land[i][2] - 3) << "not blue: " << i;
+        EXPECT_GT(sea[i][2], sea[i][1]) << "blue: " << i;
+        if (i == 0) continue;
+        EXPECT_GE(lightness(land[i]), lightness(land[i - 1]) - 0.004) << i;
+        EXPECT_GE(lightness(sea[i]), lightness(sea[i - 1]) - 0.004) << i;
     }
     const auto slope = viewer::colour_ramp(Layer::slope);
     for (std::size_t i = 1; i < slope.size(); ++i)

@@ -1,6 +1,7 @@
 layout(binding = 0) uniform sampler2D posts;   // normal along row and up column, H from -1 to 1, validity; all times it
 layout(binding = 1) uniform usampler2D cells;  // 0 where a cell has a void corner
-layout(binding = 2) uniform sampler2D ramp;    // the layer's colours
+layout(binding = 2) uniform sampler2D ramp;    // the layer's colours; in a second row those of the sea
+layout(binding = 3) uniform sampler2D sea;     // 1 at posts that are sea
 
 #ifdef WIREFRAME
 in WiredSurface {
@@ -26,9 +27,9 @@ out vec4 colour;
 const float kSharper = -0.8;
 
 // The ramp's first and last texels are its ends.
-vec3 ramp_colour(float at) {
+vec3 ramp_colour(float at, float row) {
     float texels = float(textureSize(ramp, 0).x);
-    return texture(ramp, vec2((clamp(at, 0.0, 1.0) * (texels - 1.0) + 0.5) / texels, 0.5)).rgb;
+    return texture(ramp, vec2((clamp(at, 0.0, 1.0) * (texels - 1.0) + 0.5) / texels, 0.25 + 0.5 * row)).rgb;
 }
 
 // Coarse to fine: a polynomial fit of the Turbo colour map (A. Mikhailov, Google, 2019). Most of what is seen is fine:
@@ -58,6 +59,11 @@ float on_edge(vec3 barycentric) {
 
 void main() {
     vec2 in_texture = (surface.grid + 0.5) * frame.grid.zw;
+#if LAYER == 0 && defined(SEA)
+    // The waterline is half way between a post of land and one of sea, and a pixel wide. Before the discard, too.
+    float share = texture(sea, in_texture, kSharper).r;
+    float water = smoothstep(-0.7, 0.7, (share - 0.5) / max(fwidth(share), 1e-4));
+#endif
 #ifdef VOIDS
     vec4 here = texture(posts, in_texture, kSharper);  // before the discard: its mip level needs the neighbours
     ivec2 cell = clamp(ivec2(surface.grid), ivec2(0), textureSize(cells, 0) - 1);
@@ -79,14 +85,19 @@ void main() {
     float relief = (0.32 + 0.12 * normal.z) * day + 0.75 * lit;
 
 #if LAYER == 0  // hypsometric
-    vec3 shown = ramp_colour(0.5 + 0.5 * here.z) * relief;
+#ifdef SEA
+    vec3 tint = mix(ramp_colour(0.5 + 0.5 * here.z, 0.0), ramp_colour(0.5 + 0.5 * here.z, 1.0), water);
+#else
+    vec3 tint = ramp_colour(0.5 + 0.5 * here.z, 0.0);
+#endif
+    vec3 shown = tint * relief;
     float hazed = surface.haze;
 #elif LAYER == 1  // hillshade
     vec3 shown = vec3(0.06 * day + 0.94 * lit);
     float hazed = surface.haze;
 #elif LAYER == 2  // slope: of the true ground, whatever the exaggeration; its colours are values and take no haze
     float slope = degrees(acos(clamp(true_normal.z, 0.0, 1.0)));
-    vec3 shown = ramp_colour(slope / 60.0);
+    vec3 shown = ramp_colour(slope / 60.0, 0.0);
     float hazed = 0.0;
 #elif LAYER == 3  // lod
     vec3 shown = mix(vec3(0.5), level_colour(surface.level), 0.75) * (0.35 + 0.65 * relief);
