@@ -38,6 +38,8 @@ std::string class_name(lod::PointClass kind) {
     switch (kind) {
         case lod::PointClass::land:
             return "land";
+        case lod::PointClass::sea:
+            return "sea";
         case lod::PointClass::none:
             return "void";
         case lod::PointClass::outside:
@@ -55,15 +57,16 @@ std::string datum_text(const lod::VerticalReference& vertical) {
 
 struct Point {
     lod::PointMeasurement measured;
+    const lod::SourceInfo* source_info;  // of the nearest post; of the first source where there is none
     std::optional<lod::SourcePosition> source;
 };
 
 void print_json(const Point& point, const lod::SceneInfo& info) {
-    const auto& [m, source] = point;
+    const auto& [m, source_info, source] = point;
     const bool inside = m.kind != lod::PointClass::outside;
     nlohmann::json source_crs;
-    if (!info.sources.empty()) {
-        source_crs = {{"code", info.sources.front().crs},
+    if (source_info != nullptr) {
+        source_crs = {{"code", source_info->crs},
                       {"x", source ? nlohmann::json(source->x) : nlohmann::json()},
                       {"y", source ? nlohmann::json(source->y) : nlohmann::json()}};
     }
@@ -79,8 +82,8 @@ void print_json(const Point& point, const lod::SceneInfo& info) {
                                  {"mgrs", geo::to_mgrs(m.place)},
                                  {"resolution_m", inside ? nlohmann::json(m.resolution_m) : nlohmann::json()},
                                  {"resampling_rms_m", info.resampling.rms_m},
-                                 {"filled", false},  // holes are not filled yet, nor sea beds made up
-                                 {"modelled", false}};
+                                 {"filled", m.filled},
+                                 {"modelled", m.modelled}};
     fmt::print("{}\n", json.dump());
 }
 
@@ -93,8 +96,12 @@ void print_heights(const lod::PointMeasurement& m, const lod::VerticalReference&
             fmt::print("height     none: the data has a void here\n");
             return;
         case lod::PointClass::land:
+        case lod::PointClass::sea:
             break;
     }
+    if (m.kind == lod::PointClass::sea) fmt::print("class      sea\n");
+    if (m.filled) fmt::print("filled     the data has a void here: its height is interpolated over it\n");
+    if (m.modelled) fmt::print("modelled   nobody measured this sea bed: its height is made up\n");
     fmt::print("H          {:.3f} m above {}\n", m.H->m, datum_text(vertical));
     if (m.h) {
         fmt::print("h          {:.3f} m above the WGS 84 ellipsoid\n", m.h->m);
@@ -106,12 +113,12 @@ void print_heights(const lod::PointMeasurement& m, const lod::VerticalReference&
 }
 
 void print_text(const Point& point, const lod::SceneInfo& info) {
-    const auto& [m, source] = point;
+    const auto& [m, source_info, source] = point;
     fmt::print("WGS 84     {}   {}\n", geo::to_decimal_degrees(m.place), geo::to_dms(m.place));
     fmt::print("UTM        {}   MGRS {}\n", geo::to_utm(m.place), geo::to_mgrs(m.place));
     if (source) {
-        const int decimals = info.sources.front().step_unit == "degree" ? 8 : 3;
-        fmt::print("{:<10} x {:.{}f}, y {:.{}f}\n", info.sources.front().crs, source->x, decimals, source->y,
+        const int decimals = source_info->step_unit == "degree" ? 8 : 3;
+        fmt::print("{:<10} x {:.{}f}, y {:.{}f}\n", source_info->crs, source->x, decimals, source->y,
                    decimals);
     }
     print_heights(m, info.vertical);
@@ -130,8 +137,11 @@ Result<void> measure_point(const Settings& settings, lod::HeightSampler& sampler
     }
     const auto measured = lod::measure_point(sampler, geoid ? &*geoid : nullptr, place);
     if (!measured) return measured.error();
-    Point point{*measured, {}};
-    if (!info.sources.empty()) point.source = lod::source_position(info.sources.front(), place);
+    Point point{*measured, nullptr, {}};
+    if (!info.sources.empty()) {
+        point.source_info = &info.sources[static_cast<std::size_t>(measured->source.value_or(0))];
+        point.source = lod::source_position(*point.source_info, place);
+    }
     settings.common.json ? print_json(point, info) : print_text(point, info);
     return {};
 }

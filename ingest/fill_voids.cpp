@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include <gdal_alg.h>
 #include <gdal_priv.h>
@@ -164,7 +165,8 @@ Result<lod::Raster<float>> interpolated(const lod::Raster<float>& heights, const
 
 }  // namespace
 
-Result<std::uint64_t> fill_voids(lod::Raster<float>& heights, Marks& marks, Window inside, int width) {
+Result<std::uint64_t> fill_voids(lod::Raster<float>& heights, Marks& marks, Window inside, int width,
+                                 bool whole_metres) {
     assert(width >= 1 && width <= kWidestFill);
     assert(heights.columns() == marks.columns() && heights.rows() == marks.rows());
     if (std::none_of(marks.samples().begin(), marks.samples().end(),
@@ -183,7 +185,8 @@ Result<std::uint64_t> fill_voids(lod::Raster<float>& heights, Marks& marks, Wind
     for (int r = inside.row; r < inside.row + inside.rows; ++r) {
         for (int c = inside.column; c < inside.column + inside.columns; ++c) {
             if (narrow.at(c, r) == 0) continue;
-            heights.at(c, r) = filled->at(c, r);
+            const float height = filled->at(c, r);
+            heights.at(c, r) = whole_metres ? std::round(height) : height;
             marks.at(c, r).set_class(lod::PostClass::land);
             marks.at(c, r).set_filled();
         }

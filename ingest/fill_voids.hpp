@@ -31,8 +31,9 @@ inline constexpr int fill_halo(int width) {
 ///                        of `inside` with less beside it is the data's border): as they were before any
 ///                        block was filled
 /// \param width           1 .. kWidestFill
+/// \param whole_metres    round filled heights, for scenes that store whole metres
 /// \return the number of posts filled; a post does not depend on how the data is cut into blocks
 Result<std::uint64_t> fill_voids(lod::Raster<float>& heights, lod::Raster<lod::PostMark>& marks,
-                                 Window inside, int width);
+                                 Window inside, int width, bool whole_metres = false);
 
 }  // namespace relevo::ingest

@@ -35,12 +35,12 @@ bool HeightSampler::inside(geo::GridPosition place) const {
            place.row >= -kPostTolerance && place.row <= frame.rows - 1 + kPostTolerance;
 }
 
-Result<const Raster<float>*> HeightSampler::block(int block_column, int block_row) {
+Result<HeightSampler::CachedBlock*> HeightSampler::block(int block_column, int block_row) {
     const std::uint64_t key =
         static_cast<std::uint64_t>(block_row) << 32 | static_cast<std::uint32_t>(block_column);
     if (const auto known = blocks_.find(key); known != blocks_.end()) {
         ages_.splice(ages_.begin(), ages_, known->second.age);
-        return &known->second.heights;
+        return &known->second;
     }
     auto heights = scene_.read_heights(block_column, block_row);
     if (!heights) return heights.error();
@@ -49,18 +49,53 @@ Result<const Raster<float>*> HeightSampler::block(int block_column, int block_ro
         ages_.pop_back();
     }
     ages_.push_front(key);
-    const auto added = blocks_.emplace(key, CachedBlock{*std::move(heights), ages_.begin()}).first;
-    return &added->second.heights;
+    const auto added = blocks_.emplace(key, CachedBlock{*std::move(heights), {}, ages_.begin()}).first;
+    return &added->second;
 }
 
 Result<std::optional<double>> HeightSampler::post(int column, int row) {
     assert(column >= 0 && column < scene_.info().frame.columns && row >= 0 && row < scene_.info().frame.rows);
     constexpr int kSide = SceneInfo::kBlockSide;
-    const auto heights = block(column / kSide, row / kSide);
-    if (!heights) return heights.error();
-    const float height = (*heights)->at(column % kSide, row % kSide);
+    const auto around = block(column / kSide, row / kSide);
+    if (!around) return around.error();
+    const float height = (*around)->heights.at(column % kSide, row % kSide);
     if (std::isnan(height)) return std::optional<double>{};
     return std::optional<double>{static_cast<double>(height)};
+}
+
+Result<PostMark> HeightSampler::mark(int column, int row) {
+    constexpr int kSide = SceneInfo::kBlockSide;
+    const auto around = block(column / kSide, row / kSide);
+    if (!around) return around.error();
+    CachedBlock& known = **around;
+    if (!known.marks) {
+        auto marks = scene_.read_marks(column / kSide, row / kSide, known.heights);
+        if (!marks) return marks.error();
+        known.marks = *std::move(marks);
+    }
+    return known.marks->at(column % kSide, row % kSide);
+}
+
+Result<std::optional<PlaceMarks>> HeightSampler::marks(geo::GridPosition place) {
+    const auto surface = cell(place);
+    if (!surface) return surface.error();
+    if (!*surface) return std::optional<PlaceMarks>{};
+    place = on_seam(place);
+    const auto [west, east] = posts_around(place.column);
+    const auto [north, south] = posts_around(place.row);
+    PlaceMarks marks;
+    for (const int row : {north, south}) {
+        for (const int column : {west, east}) {
+            const auto here = mark(column, row);
+            if (!here) return here.error();
+            marks.filled |= here->filled();
+            marks.modelled |= here->modelled();
+            if (column == static_cast<int>(std::round(place.column)) &&
+                row == static_cast<int>(std::round(place.row)))
+                marks.nearest = *here;
+        }
+    }
+    return std::optional{marks};
 }
 
 Result<std::optional<BilinearCell>> HeightSampler::cell(geo::GridPosition place) {

@@ -38,6 +38,13 @@ struct BilinearCell {
     }
 };
 
+/// What is known of a place besides its height.
+struct PlaceMarks {
+    PostMark nearest;       ///< of the nearest post: its class, and the source it came from
+    bool filled = false;    ///< a post that the height is made of was interpolated over a void
+    bool modelled = false;  ///< one is of a sea bed that was made up
+};
+
 /// The one way to read a height between posts, for every measuring tool: bilinear in grid coordinates over
 /// the full data, and exactly the post within 1e-6 of one. A cell with a void corner is void; so is an edge
 /// with a void end. Keeps the blocks read last.
@@ -60,6 +67,9 @@ class HeightSampler {
     /// edge's surface (both its sides have the same height), within 1e-6 of a post it is the post's.
     Result<std::optional<BilinearCell>> cell(geo::GridPosition place);
 
+    /// Marks at a place; nothing where it has no height.
+    Result<std::optional<PlaceMarks>> marks(geo::GridPosition place);
+
     /// Is the place within the data's rectangle (or within 1e-6 of it)?
     bool inside(geo::GridPosition place) const;
 
@@ -68,6 +78,7 @@ class HeightSampler {
 
     struct CachedBlock {
         Raster<float> heights;
+        std::optional<Raster<PostMark>> marks;  // read when first asked for
         std::list<std::uint64_t>::iterator age;
     };
 
@@ -76,7 +87,8 @@ class HeightSampler {
     geo::GridPosition on_seam(geo::GridPosition place) const;
 
     /// The block of a post, read if need be.
-    Result<const Raster<float>*> block(int block_column, int block_row);
+    Result<CachedBlock*> block(int block_column, int block_row);
+    Result<PostMark> mark(int column, int row);
 
     const Scene& scene_;
     std::unordered_map<std::uint64_t, CachedBlock> blocks_;

@@ -1,6 +1,7 @@
 #include "lod/measure/point.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace relevo::lod {
 namespace {
@@ -34,11 +35,19 @@ Result<PointMeasurement> measure_point(HeightSampler& sampler, const geo::Geoid*
 
     const auto H = sampler.height(position);
     if (!H) return H.error();
-    point.kind = *H ? PointClass::land : PointClass::none;
-    if (*H) {
-        point.H = geo::OrthometricHeight{**H};
-        if (point.N) point.h = *point.H + *point.N;
-    }
+    point.kind = PointClass::none;
+    if (!*H) return point;
+    point.H = geo::OrthometricHeight{**H};
+    if (point.N) point.h = *point.H + *point.N;
+
+    const auto marks = sampler.marks(position);
+    if (!marks) return marks.error();
+    assert(*marks);
+    const PlaceMarks& here = **marks;
+    point.kind = here.nearest.post_class() == PostClass::sea ? PointClass::sea : PointClass::land;
+    point.filled = here.filled;
+    point.modelled = here.modelled;
+    if (here.nearest.source() < static_cast<int>(info.sources.size())) point.source = here.nearest.source();
     return point;
 }
 

@@ -9,7 +9,7 @@
 
 namespace relevo::lod {
 
-enum class PointClass { land, none, outside };  // none: void
+enum class PointClass { land, sea, none, outside };  // none: void
 
 /// Everything that is known of a place. Heights are absent where there are none.
 struct PointMeasurement {
@@ -19,9 +19,13 @@ struct PointMeasurement {
     std::optional<geo::EllipsoidalHeight> h;  ///< H + N
     std::optional<geo::Undulation> N;  ///< of the datum's surface: 0 where H is above the ellipsoid itself
     double resolution_m = 0;           ///< post spacing there, the larger of both axes
+    bool filled = false;               ///< H is made of a post that was interpolated over a void
+    bool modelled = false;             ///< or of one of a sea bed that was made up
+    std::optional<int> source;  ///< of the nearest post, in SceneInfo::sources; none where not recorded
 };
 
 /// Reads a place from the full data: bilinear between posts, the post itself within 1e-6 of one.
+/// The class is that of the nearest post; where there is no height, void.
 /// \param geoid  for N; absent when the scene's datum has none here
 Result<PointMeasurement> measure_point(HeightSampler& sampler, const geo::Geoid* geoid, geo::LatLon place);
 

@@ -96,6 +96,35 @@ TEST(MeasurePoint, OnlyTheDataIsInside) {
     EXPECT_EQ(measure(scene, lat_lon(90, 180)).kind, PointClass::outside);
 }
 
+/// The class is the nearest post's; filled and modelled is what any post of the height is.
+TEST(MeasurePoint, SaysWhatThePostsAre) {
+    const auto mark = [](int column, int row) {
+        PostMark here(column >= 512 ? PostClass::sea : PostClass::land, 0);
+        if (column == 100 && row == 10) here.set_filled();
+        if (column >= 600) here.set_modelled();
+        return here;
+    };
+    MeasuredScene scene(
+        grid(10, 50, 0.01, 700, 30), [](int, int) { return -3; }, VerticalDatum::ellipsoid, {}, mark);
+    const auto at = [&](double column, double row) {
+        return measure(scene, scene.frame().lat_lon({column, row}));
+    };
+    EXPECT_EQ(at(511, 5).kind, PointClass::land);  // below 0, and no sea
+    EXPECT_EQ(at(511.49, 5).kind, PointClass::land);
+    EXPECT_EQ(at(511.51, 5.5).kind, PointClass::sea);  // over the border of two blocks
+    EXPECT_EQ(at(512, 5).kind, PointClass::sea);
+    EXPECT_EQ(at(512, 5).H->m, -3);
+    for (const auto& [column, row] : {std::pair{100.0, 10.0}, {99.5, 10.0}, {100.7, 10.9}, {99.01, 9.01}}) {
+        EXPECT_TRUE(at(column, row).filled) << column << ' ' << row;
+        EXPECT_FALSE(at(column, row).modelled);
+    }
+    for (const auto& [column, row] : {std::pair{99.0, 10.0}, {98.9, 10.5}, {101.0, 10.0}, {100.0, 11.0}})
+        EXPECT_FALSE(at(column, row).filled) << column << ' ' << row;
+    EXPECT_TRUE(at(599.2, 3).modelled);
+    EXPECT_FALSE(at(599, 3).modelled);
+    EXPECT_FALSE(at(5, 5).source);  // the scene names no sources
+}
+
 TEST(MeasurePoint, SmallestScenes) {
     MeasuredScene one(grid(10, 50, 0.01, 1, 1), [](int, int) { return 7; });
     EXPECT_EQ(height(one, 0, 0), 7);

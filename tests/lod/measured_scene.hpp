@@ -15,7 +15,8 @@ class MeasuredScene {
   public:
     MeasuredScene(const geo::GridFrame& frame, const std::function<double(int column, int row)>& height,
                   lod::VerticalDatum datum = lod::VerticalDatum::ellipsoid,
-                  const lod::UndulationGrid& undulations = {})
+                  const lod::UndulationGrid& undulations = {},
+                  const std::function<lod::PostMark(int column, int row)>& mark = {})
         : heights_(frame.columns, frame.rows) {
         SceneParts parts;
         parts.info.frame = frame;
@@ -30,6 +31,16 @@ class MeasuredScene {
         }
         parts.info.resampling_method = "none";
         parts.heights = heights_;
+        if (mark) {
+            parts.marks = lod::plain_marks(heights_);
+            for (int row = 0; row < frame.rows; ++row) {
+                for (int column = 0; column < frame.columns; ++column) {
+                    lod::PostMark& here = parts.marks.at(column, row);
+                    if (!here.is_void()) here = mark(column, row);
+                    if (here.post_class() == lod::PostClass::sea) ++parts.info.sea_posts;
+                }
+            }
+        }
         const int side = frame.padded_side();
         parts.metrics = {lod::Raster<std::uint16_t>(side, side), lod::Raster<std::uint16_t>(side, side),
                          lod::Raster<std::uint16_t>(side, side)};
