@@ -13,6 +13,7 @@ namespace {
 constexpr float kSpared = 100;  // metres
 constexpr float kSparedMads = 12;
 constexpr int kFewest = 9;
+constexpr int kMostPosts = 25;
 
 /// The lower one of the two in the middle, so that it is a height of the data.
 float median(std::span<float> values) {
@@ -69,11 +70,15 @@ std::optional<float> outlier_median(const lod::Raster<float>& heights,
                                     const lod::Raster<lod::PostMark>& marks, int column, int row) {
     if (marks.at(column, row).is_void()) return {};
     const float here = heights.at(column, row);
-    std::array<float, 25> values{};
+    std::array<float, kMostPosts> values{};
     std::size_t count = 0;
+    int near = 0;
     for (int r = std::max(row - 2, 0); r <= std::min(row + 2, heights.rows() - 1); ++r) {
         for (int c = std::max(column - 2, 0); c <= std::min(column + 2, heights.columns() - 1); ++c) {
-            if (!marks.at(c, r).is_void()) values[count++] = heights.at(c, r);
+            if (marks.at(c, r).is_void()) continue;
+            values[count++] = heights.at(c, r);
+            // Most of the window near it, and so the median too: nearly every post ends here.
+            if (std::abs(heights.at(c, r) - here) <= kSpared && ++near > kMostPosts / 2) return {};
         }
     }
     if (count < kFewest) return {};
