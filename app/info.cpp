@@ -129,6 +129,11 @@ void print_text(const std::string& name, const lod::SceneInfo& info, const Deriv
     if (info.valid_posts > 0)
         fmt::print("             {:.10g} to {:.10g} m\n", info.height_min_m, info.height_max_m);
     fmt::print("posts        {} with a height, {} void\n", info.valid_posts, info.void_posts);
+    if (info.filled_posts > 0)
+        fmt::print("             {} filled over voids or outliers\n", info.filled_posts);
+    fmt::print("sea          {} posts, {} of them with a made-up bed: {}\n", info.sea_posts,
+               info.modelled_posts, info.sea.text);
+    if (info.outlier_posts > 0) fmt::print("outliers     {}\n", info.outlier_posts);
     print_resampling(info);
     fmt::print("surface      bilinear (measured) and triangles (drawn) differ by at most {:.3g} m\n",
                info.bilinear_mesh_max_m);

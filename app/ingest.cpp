@@ -35,6 +35,9 @@ struct Settings {
     std::string geoid;
     std::string priority = "finest";
     double feather = 0;
+    std::string sea;
+    int fill = 0;
+    bool despike = false;
     std::string errors = "bounded";
     double max_height_error = 0;
     std::uint64_t memory = std::uint64_t{1} << 30;
@@ -110,6 +113,9 @@ Result<ingest::ImportOptions> options_of(const Settings& s) {
         mosaic.datum = std::move(*datum);
     }
     if (!s.geoid.empty()) mosaic.geoid = s.geoid;
+    options.sea = ingest::sea_request_from(s.sea);
+    options.fill_width = s.fill;
+    options.despike = s.despike;
     options.max_height_error_m = s.max_height_error;
     options.bounded_errors = s.errors == "bounded";
     options.memory_bytes = s.memory;
@@ -287,6 +293,14 @@ void add_ingest(CLI::App& program, Action& action) {
         ->type_name("W,S,E,N")
         ->delimiter(',')
         ->expected(4);
+    command
+        .add_option("--sea", s.sea,
+                    "auto, depths, none, or a file of polygons or a raster that says where the sea is; "
+                    "default: as auto, but bathymetry is land")
+        ->type_name("auto|depths|none|FILE");
+    command.add_option("--fill", s.fill, "Interpolate voids up to this many posts wide")
+        ->check(CLI::Range(0, 255));
+    command.add_flag("--despike", s.despike, "Put the median of the posts around them in place of outliers");
     command
         .add_option("--errors", s.errors, "Errors to build: bounded (and incremental), or incremental alone")
         ->check(CLI::IsMember({"bounded", "incremental"}))

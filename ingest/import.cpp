@@ -1,6 +1,8 @@
 #include "ingest/import.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,6 +13,7 @@
 #include "ingest/import_passes.hpp"
 #include "ingest/job.hpp"
 #include "ingest/memory_budget.hpp"
+#include "ingest/post_passes.hpp"
 #include "ingest/refusal.hpp"
 #include "ingest/suspicions.hpp"
 #include "ingest/vertical_datum.hpp"
@@ -111,6 +114,56 @@ Result<void> add_checksums(const Mosaic& mosaic, lod::SceneInfo& info) {
     });
 }
 
+void list_outliers(const Outliers& outliers, lod::SceneInfo& info) {
+    info.outlier_posts = outliers.count;
+    const std::size_t kept = std::min(outliers.largest.size(), lod::SceneInfo::kOutliersKept);
+    for (std::size_t i = 0; i < kept; ++i) {
+        const Outlier& one = outliers.largest[i];
+        info.outliers.push_back(
+            {one.column, one.row, static_cast<double>(one.height), static_cast<double>(one.median)});
+    }
+}
+
+/// From the sources' posts to the scene's: drafts of the former, despiked and filled as asked, then with
+/// classes.
+Result<Copied> make_posts(const Mosaic& mosaic, const ImportOptions& options, lod::HeightType type,
+                          const lod::SceneWriter& writer, std::uint64_t cache_bytes, lod::DraftPosts& posts,
+                          lod::MeshHeights& fill, lod::SceneInfo& info, const Stage& stage) {
+    const geo::GridFrame& frame = mosaic.frame();
+    SeaRequest request = options.sea;
+    request.zero_is_sea_level = mosaic.vertical().datum != lod::VerticalDatum::ellipsoid;
+    auto sea = SeaClassifier::create(frame, request);
+    if (!sea) return sea.error();
+    const PostChanges changes{options.despike, options.fill_width, type == lod::HeightType::int16};
+
+    const lod::HeightCoding exact{type, 0};
+    auto raw = writer.draft("raw", frame, exact, cache_bytes);
+    if (!raw) return raw.error();
+    const auto part = [&](double from, double to) {
+        return [&stage, from, to](double done) { return stage(from + (to - from) * done); };
+    };
+    const Progress reading = part(0, 0.6);
+    const Progress cleaning = part(0.6, 0.8);
+    const Progress finishing = part(0.8, 1);
+    auto copied = copy_posts(mosaic, type, *raw, Stage{reading, 0, 1});
+    if (!copied || *copied == Copied::too_wide_for_int16) return copied;
+    std::optional<lod::DraftPosts> cleaned;
+    if (changes.any()) {
+        auto draft = writer.draft("cleaned", frame, exact, cache_bytes);
+        if (!draft) return draft.error();
+        cleaned.emplace(std::move(*draft));
+    }
+    const auto outliers =
+        clean_posts(*raw, changes, cleaned ? &*cleaned : nullptr, *sea, Stage{cleaning, 0, 1});
+    if (!outliers) return outliers.error();
+    list_outliers(*outliers, info);
+    info.sea = sea->decide();
+    if (auto done = finish_posts(cleaned ? *cleaned : *raw, frame, *sea, posts, fill, Stage{finishing, 0, 1});
+        !done)
+        return done.error();
+    return Copied::all;
+}
+
 /// All steps of an import in their order; the scene is in its place at the end.
 Result<void> run(const Mosaic& mosaic, const ImportOptions& options, lod::HeightType type,
                  lod::SceneWriter& writer, const Progress& progress, ImportPlan& plan, bool& too_wide) {
@@ -119,15 +172,18 @@ Result<void> run(const Mosaic& mosaic, const ImportOptions& options, lod::Height
     GDALSetCacheMax64(static_cast<GIntBig>(memory.gdal_cache));
     const lod::HeightCoding coding{type, options.max_height_error_m};
 
-    auto posts = writer.posts(mosaic.frame(), coding, memory.posts_cache);
+    auto posts = writer.posts(mosaic.frame(), coding, memory.posts_cache / 3);
     if (!posts) return posts.error();
     lod::MeshHeights fill(mosaic.frame());
-    auto copied = copy_posts(mosaic, type, *posts, fill, Stage{progress, 0, 0.5});
+    lod::SceneInfo info;
+    auto copied = make_posts(mosaic, options, type, writer, memory.posts_cache / 3, *posts, fill, info,
+                             Stage{progress, 0, 0.5});
     if (!copied) return copied.error();
     too_wide = *copied == Copied::too_wide_for_int16;
     if (too_wide) return {};
+    const bool say_sea = info.sea.rule == lod::SeaInfo::Rule::low_border || info.sea.low_areas_land > 0;
+    if (say_sea) plan.notes.push_back("sea: " + info.sea.text);
 
-    lod::SceneInfo info;
     info.frame = mosaic.frame();
     info.vertical = mosaic.vertical();
     info.height_type = type;

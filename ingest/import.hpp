@@ -8,6 +8,7 @@
 #include "geo/result.hpp"
 #include "ingest/mosaic.hpp"
 #include "ingest/progress.hpp"
+#include "ingest/sea_classifier.hpp"
 #include "lod/scene/scene_info.hpp"
 
 namespace relevo::ingest {
@@ -15,6 +16,9 @@ namespace relevo::ingest {
 /// What to import and how.
 struct ImportOptions {
     MosaicRequest mosaic;
+    SeaRequest sea;        ///< which posts are sea
+    int fill_width = 0;    ///< voids up to this many posts wide are interpolated; 0: none
+    bool despike = false;  ///< outliers become the median of the posts around them
 
     double max_height_error_m = 0;  ///< heights may be stored with this much loss (LERC); 0: none
     bool bounded_errors = true;     ///< else the incremental error alone is built: faster, and no bound

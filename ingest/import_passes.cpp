@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "ingest/blocks_in_order.hpp"
+#include "ingest/post_passes.hpp"
 #include "ingest/survey.hpp"
 #include "lod/scene/scene_files.hpp"
 #include "lod/soar/metrics.hpp"
@@ -47,22 +48,37 @@ Result<void> write_lattice(const lod::MetricRasters& lattice, int padded_side,
 }  // namespace
 
 Result<Copied> copy_posts(const Mosaic& mosaic, lod::HeightType type, lod::DraftPosts& posts,
-                          lod::MeshHeights& fill, const Stage& stage) {
+                          const Stage& stage) {
     const BlockGrid& grid = posts.grid();
     std::atomic<bool> too_wide = false;
     const auto done = blocks_in_order(grid.count(), stage, [&](int i) -> Result<void> {
         if (too_wide) return {};
         const auto [column, row] = place_of(grid, i);
         const BlockGrid::Box box = grid.box(column, row);
+        if (posts.has(column, row)) return {};
+        auto read = mosaic.read({box.column, box.row, box.columns, box.rows});
+        if (!read) return read.error();
+        if (type == lod::HeightType::int16 && !fits_int16(read->heights)) {
+            too_wide = true;
+            return {};
+        }
+        return posts.write(column, row, {std::move(read->heights), std::move(read->marks)});
+    });
+    if (!done) return done.error();
+    return too_wide ? Copied::too_wide_for_int16 : Copied::all;
+}
+
+Result<void> finish_posts(const lod::DraftPosts& cleaned, const geo::GridFrame& frame,
+                          const SeaClassifier& sea, lod::DraftPosts& posts, lod::MeshHeights& fill,
+                          const Stage& stage) {
+    const BlockGrid& grid = posts.grid();
+    const auto done = blocks_in_order(grid.count(), stage, [&](int i) -> Result<void> {
+        const auto [column, row] = place_of(grid, i);
+        const BlockGrid::Box box = grid.box(column, row);
         if (!posts.has(column, row)) {
-            auto read = mosaic.read({box.column, box.row, box.columns, box.rows});
-            if (!read) return read.error();
-            if (type == lod::HeightType::int16 && !fits_int16(read->heights)) {
-                too_wide = true;
-                return {};
-            }
-            const lod::Posts block{std::move(read->heights), std::move(read->marks)};
-            if (auto written = posts.write(column, row, block); !written) return written;
+            const auto block = classified_block(cleaned, frame, sea, column, row);
+            if (!block) return block.error();
+            if (auto written = posts.write(column, row, *block); !written) return written;
         }
         // As stored, which may differ from what was read where heights are stored with loss.
         const auto stored = posts.read(column, row);
@@ -70,10 +86,9 @@ Result<Copied> copy_posts(const Mosaic& mosaic, lod::HeightType type, lod::Draft
         fill.add(box.column, box.row, (*stored)->heights);
         return {};
     });
-    if (!done) return done.error();
-    if (too_wide) return Copied::too_wide_for_int16;
+    if (!done) return done;
     fill.finish();
-    return Copied::all;
+    return {};
 }
 
 Result<void> measure_posts(const lod::DraftPosts& posts, const lod::MeshHeights& fill,

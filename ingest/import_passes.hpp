@@ -2,6 +2,7 @@
 
 #include "ingest/mosaic.hpp"
 #include "ingest/progress.hpp"
+#include "ingest/sea_classifier.hpp"
 #include "lod/mesh_heights.hpp"
 #include "lod/scene/draft_posts.hpp"
 #include "lod/scene/scene_writer.hpp"
@@ -13,10 +14,15 @@ namespace relevo::ingest {
 
 enum class Copied { all, too_wide_for_int16 };
 
-/// Reads the posts of all blocks that are not finished from the sources and writes them; gives the mesh's
-/// fill what was written. Stops where a height does not fit int16.
+/// Reads the posts of all blocks that are not finished from the sources and writes them. Stops where a height
+/// does not fit int16.
 Result<Copied> copy_posts(const Mosaic& mosaic, lod::HeightType type, lod::DraftPosts& posts,
-                          lod::MeshHeights& fill, const Stage& stage);
+                          const Stage& stage);
+
+/// Writes the scene's own posts, with their classes; gives the mesh's fill what was written.
+Result<void> finish_posts(const lod::DraftPosts& cleaned, const geo::GridFrame& frame,
+                          const SeaClassifier& sea, lod::DraftPosts& posts, lod::MeshHeights& fill,
+                          const Stage& stage);
 
 /// Builds and writes the metrics of finished posts, and fills in what `info` says of these.
 Result<void> measure_posts(const lod::DraftPosts& posts, const lod::MeshHeights& fill,

@@ -54,6 +54,10 @@ std::string job_text(const ImportOptions& options, const std::vector<std::filesy
                        {"feather_m", mosaic.feather_m},
                        {"datum", mosaic.datum ? mosaic.datum->name : ""},
                        {"geoid", mosaic.geoid ? mosaic.geoid->string() : ""}};
+    job["sea"] = lod::to_string(options.sea.kind);
+    if (!options.sea.mask_file.empty()) job["sea_mask"] = file_json(options.sea.mask_file);
+    job["fill"] = options.fill_width;
+    job["despike"] = options.despike;
     for (const SourceRequest& request : mosaic.sources) job["sources"].push_back(request_json(request));
     for (const auto& file : files) job["files"].push_back(file_json(file));
     return job.dump(1, ' ', false, nlohmann::json::error_handler_t::replace);

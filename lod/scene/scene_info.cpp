@@ -223,6 +223,7 @@ void read_statistics(JsonFields& fields, SceneInfo& info) {
     info.sea_posts = fields.count("sea_posts", info.valid_posts);
     info.filled_posts = fields.count("filled_posts", info.valid_posts);
     info.modelled_posts = fields.count("modelled_posts", info.sea_posts);
+    info.sea = sea_info_from(fields.object("sea"));
     info.outlier_posts = fields.count("outlier_posts", info.valid_posts);
     fields.each("outliers", [&](JsonFields& one) { info.outliers.push_back(outlier_from(one)); });
     fields.each("seams", [&](JsonFields& one) { info.seams.push_back(seam_from(one)); });
@@ -304,6 +305,7 @@ nlohmann::json to_json(const SceneInfo& info) {
             {"sea_posts", info.sea_posts},
             {"filled_posts", info.filled_posts},
             {"modelled_posts", info.modelled_posts},
+            {"sea", to_json(info.sea)},
             {"outlier_posts", info.outlier_posts},
             {"outliers", list_to_json(info.outliers)},
             {"seams", list_to_json(info.seams)},

@@ -9,6 +9,7 @@
 
 #include "geo/frame.hpp"
 #include "geo/result.hpp"
+#include "lod/scene/sea_info.hpp"
 
 namespace relevo::lod {
 
@@ -100,6 +101,7 @@ struct SceneInfo {
     std::uint64_t sea_posts = 0;       ///< of the valid ones; as are the next two
     std::uint64_t filled_posts = 0;    ///< interpolated over a void
     std::uint64_t modelled_posts = 0;  ///< of a sea bed that no source knows
+    SeaInfo sea;                       ///< how it was decided which posts are sea
     std::uint64_t outlier_posts = 0;
     std::vector<OutlierInfo> outliers;  ///< the largest, at most kOutliersKept
     static constexpr std::size_t kOutliersKept = 20;
