@@ -61,7 +61,8 @@ Result<std::vector<std::byte>> Folder::read(const std::string& file) const {
     const auto damaged = [&](const std::string& why) {
         return Error{ErrorKind::damaged, fmt::format("{} is damaged: {}: {}", path_.string(), file, why)};
     };
-    const Descriptor descriptor = open_at(descriptor_.number(), file, O_RDONLY);
+    // Without O_NONBLOCK a pipe in the place of a file would be waited for.
+    const Descriptor descriptor = open_at(descriptor_.number(), file, O_RDONLY | O_NONBLOCK);
     if (!descriptor) return damaged(last_system_error());
     struct stat status {};
     if (::fstat(descriptor.number(), &status) != 0) return damaged(last_system_error());

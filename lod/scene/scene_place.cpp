@@ -199,12 +199,16 @@ Result<ScenePlace> ScenePlace::claim(const fs::path& path, const SceneClaim& cla
     }
     if (mine) return ScenePlace(std::move(target), claim.overwrite, std::move(*lock), std::move(*mine), true);
     Result<Folder> partial = make_partial(target);
-    if (!partial) return partial.error();
+    if (!partial) {
+        fs::remove(lock_file(target), error);
+        return partial.error();
+    }
+    ScenePlace place(std::move(target), claim.overwrite, std::move(*lock), std::move(*partial), false);
     if (!claim.job.empty()) {
-        if (auto done = partial->write(kJobFile, std::as_bytes(std::span(claim.job))); !done)
+        if (auto done = place.partial_.write(kJobFile, std::as_bytes(std::span(claim.job))); !done)
             return done.error();
     }
-    return ScenePlace(std::move(target), claim.overwrite, std::move(*lock), std::move(*partial), false);
+    return place;
 }
 
 Result<void> ScenePlace::forget_job() {

@@ -1,12 +1,16 @@
 // Nothing that happens to a scene's files is taken for data, and none of it crashes: each is an error that
 // names the file.
 
+#include <chrono>
+#include <cstdlib>
 #include <random>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 #include "lod/scene/scene_files.hpp"
+#include "lod/scene/sha256.hpp"
 #include "tests/lod/scratch_scene.hpp"
 
 namespace relevo::test {
@@ -150,6 +154,149 @@ TEST_F(SceneDamage, AFolderInPlaceOfABlock) {
     fs::remove(path_ / "undulation.tif");
     fs::create_directory(path_ / "undulation.tif");
     expect_error(read_all(path_), ErrorKind::damaged, "undulation.tif");
+}
+
+/// What became of many damaged scenes. Each is opened, verified and read as a whole.
+struct Fates {
+    int refused = 0;
+    int accepted = 0;  ///< what was damaged carries nothing
+    double slowest_s = 0;
+
+    /// \return was it refused?
+    bool judge(const fs::path& path) {
+        const auto start = std::chrono::steady_clock::now();
+        const auto scene = Scene::open(path);
+        const bool verified = scene && scene->verify().empty();
+        const auto read = scene ? read_all(path) : Result<void>(scene.error());
+        // heights.vrt is verified, and never read.
+        EXPECT_TRUE(read || !verified) << read.error().message;
+        if (!read) {
+            EXPECT_EQ(read.error().message.find(path.string()), 0U) << read.error().message;
+        }
+        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+        slowest_s = std::max(slowest_s, taken.count());
+        ++(verified ? accepted : refused);
+        return !verified;
+    }
+
+    void print(const char* what) const {
+        fmt::print("{}: {} refused, {} accepted, the slowest took {:.3f} s\n", what, refused, accepted,
+                   slowest_s);
+        EXPECT_LT(slowest_s, 5);
+    }
+};
+
+/// Does a file say the same with other bytes? White space carries nothing.
+bool says_the_same(const std::string& file, const std::string& text, const std::string& damaged) {
+    if (file == "scene.json")
+        return nlohmann::json::parse(damaged, nullptr, false) == nlohmann::json::parse(text);
+    return file == "heights.vrt" && damaged + "\n" == text;
+}
+
+std::string sha256_of(const std::string& text) {
+    return lod::sha256_hex(std::as_bytes(std::span(text)));
+}
+
+/// RELEVO_DAMAGE_TRIALS=10000 asks for more trials than a test has time for.
+int trials(int usual) {
+    const char* asked = std::getenv("RELEVO_DAMAGE_TRIALS");
+    return asked == nullptr ? usual : std::atoi(asked);
+}
+
+class SmallSceneDamage : public testing::Test {
+  protected:
+    void SetUp() override {
+        SceneParts parts = made_up_scene(20, 10);
+        parts.marks = lod::plain_marks(parts.heights);
+        parts.marks.at(0, 0).set_class(lod::PostClass::sea);
+        ASSERT_TRUE(write_scene(parts, path_));
+        files_ = all_files(path_);
+        ASSERT_EQ(files_.size(), 7U);  // a block of each layer, the geoid, the JSON, the VRT
+        ASSERT_TRUE(read_all(path_));
+    }
+
+    SceneFolder folder_;
+    fs::path path_ = folder_ / "a.relevo";
+    std::map<std::string, std::string> files_;
+};
+
+TEST_F(SmallSceneDamage, EveryPrefixOfEveryFile) {
+    Fates fates;
+    for (const auto& [file, text] : files_) {
+        for (std::size_t size = 0; size < text.size(); ++size) {
+            const std::string cut = text.substr(0, size);
+            replace(path_ / file, cut);
+            EXPECT_EQ(fates.judge(path_), !says_the_same(file, text, cut))
+                << file << " of " << size << " bytes";
+        }
+        replace(path_ / file, text);
+    }
+    fates.print("prefixes");
+}
+
+TEST_F(SmallSceneDamage, FlippedBits) {
+    constexpr unsigned kSeed = 7;
+    std::mt19937_64 random(kSeed);
+    Fates fates;
+    files_.erase("heights.vrt");  // for other programs, which may change it
+    const int count = trials(2000);
+    for (int i = 0; i < count; ++i) {
+        const auto& [file, text] = *std::next(files_.begin(), i % static_cast<int>(files_.size()));
+        std::string flipped = text;
+        for (auto flips = 1 + random() % 4; flips > 0; --flips)
+            flipped[random() % text.size()] ^= static_cast<char>(1U << random() % 8);
+        replace(path_ / file, flipped);
+        EXPECT_EQ(fates.judge(path_), !says_the_same(file, text, flipped))
+            << file << ", trial " << i << " of seed " << kSeed;
+        replace(path_ / file, text);
+    }
+    EXPECT_EQ(fates.refused + fates.accepted, count);
+    fates.print("flipped bits");
+}
+
+// Somebody who means harm gives the checksum, too: then the decoders alone stand in the way. What they let
+// through are other heights, no more.
+TEST_F(SmallSceneDamage, FlippedBitsUnderTheirOwnChecksum) {
+    constexpr unsigned kSeed = 8;
+    std::mt19937_64 random(kSeed);
+    Fates fates;
+    const auto info = lod::scene_info_from_text(files_["scene.json"]);
+    ASSERT_TRUE(info);
+    files_.erase("heights.vrt");
+    files_.erase("scene.json");
+    const int count = trials(600);
+    for (int i = 0; i < count; ++i) {
+        const auto& [file, text] = *std::next(files_.begin(), i % static_cast<int>(files_.size()));
+        std::string flipped = text;
+        for (auto flips = 1 + random() % 4; flips > 0; --flips)
+            flipped[random() % text.size()] ^= static_cast<char>(1U << random() % 8);
+        if (i % 3 == 0) flipped.resize(random() % text.size());
+        replace(path_ / file, flipped);
+        lod::SceneInfo forged = *info;
+        for (auto* layer : {&forged.heights, &forged.marks, &forged.metrics, &forged.lattice}) {
+            if (layer->at(0).file == file) layer->at(0).sha256 = sha256_of(flipped);
+        }
+        if (forged.undulation.file == file) forged.undulation.sha256 = sha256_of(flipped);
+        replace(path_ / "scene.json", lod::scene_text(forged));
+        const auto start = std::chrono::steady_clock::now();
+        ++(read_all(path_) ? fates.accepted : fates.refused);
+        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+        fates.slowest_s = std::max(fates.slowest_s, taken.count());
+        replace(path_ / file, text);
+    }
+    fates.print("flipped bits under their own checksum");
+}
+
+// A pipe was once waited for, for ever.
+TEST_F(SmallSceneDamage, APipeInPlaceOfAFile) {
+    for (const auto& [file, text] : files_) {
+        fs::remove(path_ / file);
+        ASSERT_EQ(::mkfifo((path_ / file).c_str(), 0666), 0);
+        const auto scene = Scene::open(path_);
+        EXPECT_FALSE(scene && scene->verify().empty()) << file;
+        fs::remove(path_ / file);
+        replace(path_ / file, text);
+    }
 }
 
 /// Values that pass for JSON but make no sense. The checksum is not asked here: it would hide them.
