@@ -1,4 +1,5 @@
 #include <clocale>
+#include <csignal>
 #include <exception>
 
 #include <fmt/format.h>
@@ -59,7 +60,8 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    std::setlocale(LC_ALL, "C");  // numbers are written and read the same way everywhere
+    std::setlocale(LC_ALL, "C");    // numbers are written and read the same way everywhere
+    std::signal(SIGXFSZ, SIG_IGN);  // a file over the user's limit is an error of that write, with a message
     try {
         return run(argc, argv);
     } catch (const std::exception& error) {

@@ -102,6 +102,16 @@ Result<lod::UndulationGrid> undulations_of(const Mosaic& mosaic, const ImportOpt
     return lod::UndulationGrid{*geoid, frame};
 }
 
+/// Heights and checksums are of the same files only if none of these was changed meanwhile.
+Result<void> check_unchanged(const std::vector<FileState>& before, const std::vector<FileState>& now) {
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        if (before[i] != now.at(i))
+            return refusal(before[i].path.filename().string(),
+                           "it was changed, or it went away, while it was read", "Import it again");
+    }
+    return {};
+}
+
 Result<void> add_checksums(const Mosaic& mosaic, lod::SceneInfo& info) {
     const auto files = mosaic.files();
     return lod::for_each_block(static_cast<int>(files.size()), [&](int i) -> Result<void> {
@@ -166,7 +176,8 @@ Result<Copied> make_posts(const Mosaic& mosaic, const ImportOptions& options, lo
 
 /// All steps of an import in their order; the scene is in its place at the end.
 Result<void> run(const Mosaic& mosaic, const ImportOptions& options, lod::HeightType type,
-                 lod::SceneWriter& writer, const Progress& progress, ImportPlan& plan, bool& too_wide) {
+                 const std::vector<FileState>& files, lod::SceneWriter& writer, const Progress& progress,
+                 ImportPlan& plan, bool& too_wide) {
     const MemoryBudget memory =
         divide_memory(options.memory_bytes, mosaic.frame(), mosaic.memory_bytes(), threads());
     GDALSetCacheMax64(static_cast<GIntBig>(memory.gdal_cache));
@@ -214,6 +225,7 @@ Result<void> run(const Mosaic& mosaic, const ImportOptions& options, lod::Height
             fmt::format("float32 rounds its heights by up to {:.2g} m", info.resampling.max_m));
     if (info.sources.size() == 1) info.sources[0].notes = fmt::format("{}", fmt::join(plan.notes, "; "));
     if (auto done = add_checksums(mosaic, info); !done) return done;
+    if (auto same = check_unchanged(files, states_of(mosaic.all_files())); !same) return same;
     if (auto done = writer.write_undulations(*undulations); !done) return done;
     if (progress && !progress(0.97)) return interrupted();
     return writer.commit(std::move(info));
@@ -240,15 +252,16 @@ Result<Imported> import_scene(const ImportOptions& options, const ImportPlace& p
     ImportPlan plan = plan_of(*mosaic, options);
     if (auto fits = check_size(plan, options); !fits) return fits.error();
 
+    const auto files = states_of(mosaic->all_files());
     auto type = mosaic->fits_int16() ? lod::HeightType::int16 : lod::HeightType::float32;
     bool anew = false;
     for (;;) {
         auto writer = lod::SceneWriter::create(
-            place.scene, {place.overwrite, place.resume, job_text(options, mosaic->files(), type)});
+            place.scene, {place.overwrite, place.resume, job_text(options, files, type)});
         if (!writer) return writer.error();
         anew = place.resume && !writer->resumed();
         bool too_wide = false;
-        const auto done = run(*mosaic, options, type, *writer, progress, plan, too_wide);
+        const auto done = run(*mosaic, options, type, files, *writer, progress, plan, too_wide);
         if (!done && done.error().kind == ErrorKind::internal) writer->keep_for_resume();
         if (!done) return with_remedy(done.error());
         if (!too_wide) break;

@@ -17,6 +17,11 @@ nlohmann::json bounds_json(const std::optional<Bounds>& bounds) {
     return {bounds->west, bounds->south, bounds->east, bounds->north};
 }
 
+nlohmann::json layout_json(const std::optional<RawLayout>& raw) {
+    if (!raw) return {};
+    return {raw->columns, raw->rows, raw->type, raw->little_endian};
+}
+
 nlohmann::json request_json(const SourceRequest& request) {
     return {{"input", request.input},
             {"crs", or_null(request.crs)},
@@ -24,21 +29,34 @@ nlohmann::json request_json(const SourceRequest& request) {
             {"nodata", or_null(request.nodata)},
             {"height_scale", or_null(request.height_scale)},
             {"height_offset", request.height_offset},
+            {"band", or_null(request.band)},
+            {"variable", or_null(request.variable)},
+            {"raw", layout_json(request.raw)},
+            {"encoding", request.encoding ? nlohmann::json(*request.encoding) : nlohmann::json()},
             {"vertical",
              request.vertical ? nlohmann::json(lod::to_string(*request.vertical)) : nlohmann::json()}};
 }
 
-nlohmann::json file_json(const std::filesystem::path& file) {
-    if (file.empty()) return {};
+FileState state_of(const std::filesystem::path& file) {
     std::error_code unknown;
-    const auto path = std::filesystem::absolute(file, unknown).string();
-    return {path, std::filesystem::file_size(file, unknown),
-            std::filesystem::last_write_time(file, unknown).time_since_epoch().count()};
+    return {std::filesystem::absolute(file, unknown), std::filesystem::file_size(file, unknown),
+            std::filesystem::last_write_time(file, unknown)};
+}
+
+nlohmann::json file_json(const FileState& file) {
+    return {file.path.string(), file.size, file.time.time_since_epoch().count()};
 }
 
 }  // namespace
 
-std::string job_text(const ImportOptions& options, const std::vector<std::filesystem::path>& files,
+std::vector<FileState> states_of(const std::vector<std::filesystem::path>& files) {
+    std::vector<FileState> states;
+    for (const auto& file : files)
+        if (!file.empty()) states.push_back(state_of(file));
+    return states;
+}
+
+std::string job_text(const ImportOptions& options, const std::vector<FileState>& files,
                      lod::HeightType type) {
     const MosaicRequest& mosaic = options.mosaic;
     nlohmann::json job{{"format", lod::SceneInfo::kFormatVersion},
@@ -55,7 +73,7 @@ std::string job_text(const ImportOptions& options, const std::vector<std::filesy
                        {"datum", mosaic.datum ? mosaic.datum->name : ""},
                        {"geoid", mosaic.geoid ? mosaic.geoid->string() : ""}};
     job["sea"] = lod::to_string(options.sea.kind);
-    if (!options.sea.mask_file.empty()) job["sea_mask"] = file_json(options.sea.mask_file);
+    if (!options.sea.mask_file.empty()) job["sea_mask"] = file_json(state_of(options.sea.mask_file));
     job["fill"] = options.fill_width;
     job["despike"] = options.despike;
     for (const SourceRequest& request : mosaic.sources) job["sources"].push_back(request_json(request));

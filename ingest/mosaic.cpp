@@ -268,6 +268,15 @@ std::vector<std::filesystem::path> Mosaic::files() const {
     return files;
 }
 
+std::vector<std::filesystem::path> Mosaic::all_files() const {
+    std::vector<std::filesystem::path> files = this->files();
+    for (int i = 0; i < state_->pool.count(); ++i) {
+        const auto& more = state_->pool.facts(i).all_files;
+        files.insert(files.end(), more.begin(), more.end());
+    }
+    return files;
+}
+
 std::string Mosaic::resampling_method() const {
     std::vector<std::string> methods;
     for (const LayerInScene& layer : state_->in_scene) {

@@ -63,6 +63,8 @@ class Mosaic {
     std::vector<lod::SourceInfo> sources() const;
     /// The file of each source, for checksums; empty where it is not a plain file.
     std::vector<std::filesystem::path> files() const;
+    /// Those, and what else GDAL reads the sources from: a change of any of them may change the scene.
+    std::vector<std::filesystem::path> all_files() const;
 
     /// "none" where all posts are sources' own, else how heights between them are made.
     std::string resampling_method() const;

@@ -41,10 +41,12 @@ Result<void> check_file(const fs::path& file, const std::string& name) {
     const auto status = fs::status(file, failed);
     if (failed || !fs::exists(status)) return {};  // not a plain path: GDAL decides
     if (fs::is_directory(status)) return {};       // some formats are folders
+    // A pipe would be waited for, by us or by GDAL.
+    if (!fs::is_regular_file(status))
+        return refusal(name, "it is a pipe or a device, not a file", "Save it as a file first");
     if (!std::ifstream(file))
         return refusal(name, "cannot be read: no permission", "Change the file's permissions");
-    if (fs::is_regular_file(status) && fs::file_size(file, failed) == 0)
-        return refusal(name, "the file is empty", "Fetch it again");
+    if (fs::file_size(file, failed) == 0) return refusal(name, "the file is empty", "Fetch it again");
     return {};
 }
 

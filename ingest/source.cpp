@@ -146,6 +146,11 @@ Result<void> Source::choose_colours() {
     return {};
 }
 
+std::vector<std::filesystem::path> Source::all_files() const {
+    const CPLStringList names{opened_.dataset->GetFileList()};
+    return {names.List(), names.List() + names.size()};
+}
+
 bool Source::whole_metres() const {
     return !encoding_ && rule_.identity() && GDALDataTypeIsInteger(band_->GetRasterDataType()) != 0;
 }

@@ -40,6 +40,8 @@ class Source {
 
     const std::string& name() const { return opened_.name; }
     const std::filesystem::path& file() const { return opened_.file; }
+    /// All that GDAL reads it from: also a VRT's sources, world files, ...
+    std::vector<std::filesystem::path> all_files() const;
     int columns() const { return columns_; }
     int rows() const { return rows_; }
     const Crs& crs() const { return *crs_; }

@@ -35,6 +35,7 @@ SourceFacts facts_of(const Source& source) {
     SourceFacts facts;
     facts.name = source.name();
     facts.file = source.file();
+    facts.all_files = source.all_files();
     facts.columns = source.columns();
     facts.rows = source.rows();
     facts.posts = source.posts();

@@ -16,6 +16,7 @@ namespace relevo::ingest {
 struct SourceFacts {
     std::string name;
     std::filesystem::path file;
+    std::vector<std::filesystem::path> all_files;  ///< as Source::all_files()
     int columns = 0;
     int rows = 0;
     Affine posts;
