@@ -31,6 +31,7 @@ struct Settings {
     double height_offset = 0;
     std::string vertical;
     SourceFlags source;
+    std::string frame = "auto";
     std::string datum;
     std::string geoid;
     std::string priority = "finest";
@@ -104,6 +105,8 @@ Result<ingest::ImportOptions> options_of(const Settings& s) {
     for (const std::string& input : *inputs) mosaic.sources.push_back(source_of(s, input));
     mosaic.target.crop = bounds_of(s.crop);
     if (!s.resolution.empty()) mosaic.target.resolution = {s.resolution.front(), s.resolution.back()};
+    if (s.frame == "geographic") mosaic.target.frame = ingest::FrameChoice::geographic;
+    if (s.frame == "ups") mosaic.target.frame = ingest::FrameChoice::ups;
     mosaic.resampling = ingest::resampling_from(s.resampling);
     mosaic.priority = s.priority == "order" ? ingest::Priority::order : ingest::Priority::finest;
     mosaic.feather_m = s.feather;
@@ -241,7 +244,7 @@ Result<void> run(const Settings& s) {
     if (!s.dry_run && s.scene.empty())
         return Error{ErrorKind::usage, "where to? Give the scene's name with -o"};
     for (const double step : s.resolution)
-        if (!(step > 0)) return Error{ErrorKind::usage, "--resolution: steps in degrees, greater than 0"};
+        if (!(step > 0)) return Error{ErrorKind::usage, "--resolution: steps greater than 0"};
     return s.dry_run ? show_plan(s) : run_import(s);
 }
 
@@ -282,10 +285,13 @@ void add_ingest(CLI::App& program, Action& action) {
     command.add_option("--feather", s.feather, "Blend the border of finer data over this many metres");
     command.add_option("--resampling", s.resampling, "Default: cubic, or average where the scene is coarser")
         ->check(CLI::IsMember({"cubic", "bilinear", "nearest", "average"}));
+    command.add_option("--frame", s.frame, "The scene's grid; auto: UPS beyond 75 degrees, else geographic")
+        ->check(CLI::IsMember({"auto", "geographic", "ups"}))
+        ->capture_default_str();
     command
         .add_option("--resolution", s.resolution,
-                    "Steps of longitude and latitude in place of the file's own")
-        ->type_name("DEG_X[,DEG_Y]")
+                    "Steps in place of the finest file's: degrees of longitude and latitude, metres in UPS")
+        ->type_name("X[,Y]")
         ->delimiter(',')
         ->expected(1, 2);
     command

@@ -65,6 +65,7 @@ std::string job_text(const ImportOptions& options, const std::vector<FileState>&
                        {"type", lod::to_string(type)},
                        {"max_height_error_m", options.max_height_error_m},
                        {"bounded_errors", options.bounded_errors},
+                       {"frame", static_cast<int>(mosaic.target.frame)},
                        {"crop", bounds_json(mosaic.target.crop)},
                        {"resolution", or_null(mosaic.target.resolution)},
                        {"resampling", mosaic.resampling ? to_string(*mosaic.resampling) : ""},

@@ -76,12 +76,21 @@ TEST_P(FramesOfEveryKind, ThePeakIsWhereItIs) {
     SyntheticRaster raster = cone(p.crs, p.x, p.y, p.step);
     for (const char* kind : {"Area", "Point"}) {
         raster.area_or_point = kind;
-        const auto scene = imported(folder, options_for(raster.write(folder / "cone.tif")));
+        auto options = options_for(raster.write(folder / "cone.tif"));
+        // Beside a pole a cell of this file is 600 times higher than wide: in UPS it would be 250 million
+        // posts with a flat top that has no one highest post.
+        if (p.y > 89) options.mosaic.target.frame = FrameChoice::geographic;
+        const auto scene = imported(folder, options);
         const auto top = top_of(scene);
         // The cone in the CRS is a paraboloid bent by the projection: its top is found to some thousandths of
         // a post.
-        EXPECT_NEAR(top.lat.value, truth.y, 0.02 * scene.info.frame.step_y) << kind;
-        EXPECT_NEAR(std::remainder(top.lon.value - truth.x, 360), 0, 0.02 * scene.info.frame.step_x) << kind;
+        const geo::GridFrame& frame = scene.info.frame;
+        const geo::GridPosition found = frame.grid_position(top);
+        const geo::GridPosition expected =
+            frame.grid_position({geo::Degrees{truth.y}, geo::Degrees{truth.x}});
+        EXPECT_NEAR(found.column, expected.column, 0.02) << kind;
+        EXPECT_NEAR(found.row, expected.row, 0.02) << kind;
+        if (frame.is_polar()) continue;
         EXPECT_GE(scene.info.frame.west, -180) << kind;
         EXPECT_LT(scene.info.frame.west, 180) << kind;
     }

@@ -34,7 +34,9 @@ TEST(Import, GeographicPostsAreKeptBitForBit) {
     raster.value = rough;
     raster.nodata = 77;
     const auto file = raster.write(folder / "rough.tif");
-    const auto scene = imported(folder, options_for(file));
+    auto options = options_for(file);
+    options.sea.kind = lod::SeaInfo::Request::none;  // else low voids at the border get a modelled sea bed
+    const auto scene = imported(folder, options);
     EXPECT_EQ(scene.info.height_type, lod::HeightType::int16);
     EXPECT_EQ(scene.info.resampling_method, "none");
     EXPECT_EQ(scene.info.resampling.max_m, 0);
@@ -364,10 +366,11 @@ TEST(Import, WhatIsLeftOfABlockIsNotTrusted) {
     int changed = 0;
     for (const auto& [name, text] : test::all_files(folder.path())) {
         if (name.find("heights/r0000-c0001") == std::string::npos || !name.starts_with(".b.")) continue;
+        std::filesystem::remove(folder / name);  // not through it: drafts share their bytes
         test::replace(folder / name, text.substr(0, text.size() / 2));
         ++changed;
     }
-    ASSERT_EQ(changed, 1);
+    ASSERT_EQ(changed, 2) << "the draft and the scene's own";
     ASSERT_TRUE(import_scene(options, {.scene = folder / "b.relevo", .resume = true}));
     EXPECT_EQ(test::all_files(folder / "b.relevo"), test::all_files(folder / "whole.relevo"));
 }
