@@ -79,6 +79,7 @@ Result<void> check_views(const lod::Scene& scene, const CheckOptions& options, J
     report["results"] = Json::array();
     bool kept = true;
     for (const auto metric : {lod::ErrorMetric::bounded, lod::ErrorMetric::incremental}) {
+        if (metric == lod::ErrorMetric::bounded && !scene.info().bounded_errors) continue;
         const auto terrain = lod::Terrain::load(scene, metric);
         if (!terrain) return terrain.error();
         const auto cameras =

@@ -124,16 +124,6 @@ Result<void> add_checksums(const Mosaic& mosaic, lod::SceneInfo& info) {
     });
 }
 
-void list_outliers(const Outliers& outliers, lod::SceneInfo& info) {
-    info.outlier_posts = outliers.count;
-    const std::size_t kept = std::min(outliers.largest.size(), lod::SceneInfo::kOutliersKept);
-    for (std::size_t i = 0; i < kept; ++i) {
-        const Outlier& one = outliers.largest[i];
-        info.outliers.push_back(
-            {one.column, one.row, static_cast<double>(one.height), static_cast<double>(one.median)});
-    }
-}
-
 /// From the sources' posts to the scene's: drafts of the former, despiked and filled as asked, then with
 /// classes.
 Result<Copied> make_posts(const Mosaic& mosaic, const ImportOptions& options, lod::HeightType type,
@@ -155,7 +145,8 @@ Result<Copied> make_posts(const Mosaic& mosaic, const ImportOptions& options, lo
     const Progress reading = part(0, 0.6);
     const Progress cleaning = part(0.6, 0.8);
     const Progress finishing = part(0.8, 1);
-    auto copied = copy_posts(mosaic, type, *raw, Stage{reading, 0, 1});
+    SeaClassifier* const sees_raw = !changes.any() && sea->needs_blocks() ? &*sea : nullptr;
+    auto copied = copy_posts(mosaic, type, *raw, sees_raw, Stage{reading, 0, 1});
     if (!copied || *copied == Copied::too_wide_for_int16) return copied;
     std::optional<lod::DraftPosts> cleaned;
     if (changes.any()) {
@@ -163,10 +154,11 @@ Result<Copied> make_posts(const Mosaic& mosaic, const ImportOptions& options, lo
         if (!draft) return draft.error();
         cleaned.emplace(std::move(*draft));
     }
-    const auto outliers =
-        clean_posts(*raw, changes, cleaned ? &*cleaned : nullptr, *sea, Stage{cleaning, 0, 1});
-    if (!outliers) return outliers.error();
-    list_outliers(*outliers, info);
+    if (cleaned) {
+        const auto outliers = clean_posts(*raw, changes, *cleaned, *sea, Stage{cleaning, 0, 1});
+        if (!outliers) return outliers.error();
+        list_outliers(*outliers, info);
+    }
     info.sea = sea->decide();
     if (auto done = finish_posts(cleaned ? *cleaned : *raw, frame, *sea, posts, fill, Stage{finishing, 0, 1});
         !done)
@@ -204,7 +196,9 @@ Result<void> run(const Mosaic& mosaic, const ImportOptions& options, lod::Height
     info.sources = plan.sources;
     const auto undulations = undulations_of(mosaic, options);
     if (!undulations) return undulations.error();
-    if (auto done = measure_posts(*posts, fill, *undulations, writer, info, Stage{progress, 0.5, 0.85});
+    if (auto done =
+            measure_posts(*posts, fill, *undulations, writer, !options.despike && options.fill_width == 0,
+                          info, Stage{progress, 0.5, 0.85});
         !done)
         return done;
     if (info.valid_posts == 0)

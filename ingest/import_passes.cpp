@@ -1,5 +1,8 @@
 #include "ingest/import_passes.hpp"
 
+#include <algorithm>
+#include <atomic>
+#include <cstring>
 #include <vector>
 
 #include "ingest/blocks_in_order.hpp"
@@ -28,6 +31,10 @@ Window inside_of(const BlockGrid::Box& around, const BlockGrid::Box& box) {
     return {box.column - around.column, box.row - around.row, box.columns, box.rows};
 }
 
+bool same_bits(const lod::Raster<float>& a, const lod::Raster<float>& b) {
+    return std::memcmp(a.samples().data(), b.samples().data(), a.samples().size() * sizeof(float)) == 0;
+}
+
 Result<void> write_lattice(const lod::MetricRasters& lattice, int padded_side,
                            const lod::SceneWriter& writer) {
     auto layer = writer.layer(lod::kLatticeFolder);
@@ -47,21 +54,38 @@ Result<void> write_lattice(const lod::MetricRasters& lattice, int padded_side,
 
 }  // namespace
 
+void list_outliers(const Outliers& outliers, lod::SceneInfo& info) {
+    info.outlier_posts = outliers.count;
+    const std::size_t kept = std::min(outliers.largest.size(), lod::SceneInfo::kOutliersKept);
+    for (std::size_t i = 0; i < kept; ++i) {
+        const Outlier& one = outliers.largest[i];
+        info.outliers.push_back(
+            {one.column, one.row, static_cast<double>(one.height), static_cast<double>(one.median)});
+    }
+}
+
 Result<Copied> copy_posts(const Mosaic& mosaic, lod::HeightType type, lod::DraftPosts& posts,
-                          const Stage& stage) {
+                          SeaClassifier* sea, const Stage& stage) {
     const BlockGrid& grid = posts.grid();
     std::atomic<bool> too_wide = false;
     const auto done = blocks_in_order(grid.count(), stage, [&](int i) -> Result<void> {
         if (too_wide) return {};
         const auto [column, row] = place_of(grid, i);
         const BlockGrid::Box box = grid.box(column, row);
-        if (posts.has(column, row)) return {};
+        if (posts.has(column, row)) {
+            if (sea == nullptr) return {};
+            const auto known = posts.read(column, row);
+            if (!known) return known.error();
+            sea->add_block(column, row, (*known)->heights, (*known)->marks);
+            return {};
+        }
         auto read = mosaic.read({box.column, box.row, box.columns, box.rows});
         if (!read) return read.error();
         if (type == lod::HeightType::int16 && !fits_int16(read->heights)) {
             too_wide = true;
             return {};
         }
+        if (sea != nullptr) sea->add_block(column, row, read->heights, read->marks);
         return posts.write(column, row, {std::move(read->heights), std::move(read->marks)});
     });
     if (!done) return done.error();
@@ -76,9 +100,14 @@ Result<void> finish_posts(const lod::DraftPosts& cleaned, const geo::GridFrame& 
         const auto [column, row] = place_of(grid, i);
         const BlockGrid::Box box = grid.box(column, row);
         if (!posts.has(column, row)) {
-            const auto block = classified_block(cleaned, frame, sea, column, row);
+            auto block = classified_block(cleaned, frame, sea, column, row);
             if (!block) return block.error();
-            if (auto written = posts.write(column, row, *block); !written) return written;
+            const auto before = cleaned.read(column, row);
+            if (!before) return before.error();
+            const bool share = posts.codes_as(cleaned) && same_bits(block->heights, (*before)->heights);
+            const auto written = share ? posts.write_marks(column, row, std::move(*block), cleaned)
+                                       : posts.write(column, row, std::move(*block));
+            if (!written) return written;
         }
         // As stored, which may differ from what was read where heights are stored with loss.
         const auto stored = posts.read(column, row);
@@ -93,7 +122,7 @@ Result<void> finish_posts(const lod::DraftPosts& cleaned, const geo::GridFrame& 
 
 Result<void> measure_posts(const lod::DraftPosts& posts, const lod::MeshHeights& fill,
                            const lod::UndulationGrid& undulations, const lod::SceneWriter& writer,
-                           lod::SceneInfo& info, const Stage& stage) {
+                           bool count_outliers, lod::SceneInfo& info, const Stage& stage) {
     const geo::GridFrame& frame = info.frame;
     const geo::PostPositions positions(frame);
     lod::MetricBuilder metrics(
@@ -104,6 +133,7 @@ Result<void> measure_posts(const lod::DraftPosts& posts, const lod::MeshHeights&
     const int side = frame.padded_side();
     const BlockGrid tiles = BlockGrid::of_metrics(side);
     std::vector<Survey> surveys(static_cast<std::size_t>(tiles.count()));
+    std::vector<Outliers> outliers(static_cast<std::size_t>(tiles.count()));
     const auto done = blocks_in_order(tiles.count(), stage, [&](int i) -> Result<void> {
         const auto [column, row] = place_of(tiles, i);
         const BlockGrid::Box tile = tiles.box(column, row);
@@ -117,14 +147,22 @@ Result<void> measure_posts(const lod::DraftPosts& posts, const lod::MeshHeights&
         Window inside = inside_of(window, tile);
         inside.columns = std::min(inside.columns, around->heights.columns() - inside.column);
         inside.rows = std::min(inside.rows, around->heights.rows() - inside.row);
-        if (inside.columns > 0 && inside.rows > 0)
-            surveys[static_cast<std::size_t>(i)] = Survey(*around, inside);
+        if (inside.columns <= 0 || inside.rows <= 0) return {};
+        surveys[static_cast<std::size_t>(i)] = Survey(*around, inside);
+        if (count_outliers)
+            outliers[static_cast<std::size_t>(i)] =
+                find_outliers(around->heights, around->marks, inside, tile.column, tile.row);
         return {};
     });
     if (!done) return done;
     Survey all;
     for (const Survey& part : surveys) all.join(part);
     all.put_into(info);
+    if (count_outliers) {
+        Outliers found;
+        for (const Outliers& part : outliers) found.add(part);
+        list_outliers(found, info);
+    }
     return write_lattice(metrics.finish(), side, writer);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ingest/mosaic.hpp"
+#include "ingest/outliers.hpp"
 #include "ingest/progress.hpp"
 #include "ingest/sea_classifier.hpp"
 #include "lod/mesh_heights.hpp"
@@ -15,18 +16,21 @@ namespace relevo::ingest {
 enum class Copied { all, too_wide_for_int16 };
 
 /// Reads the posts of all blocks that are not finished from the sources and writes them. Stops where a height
-/// does not fit int16.
+/// does not fit int16. \param sea  is shown all blocks; null where it wants none
 Result<Copied> copy_posts(const Mosaic& mosaic, lod::HeightType type, lod::DraftPosts& posts,
-                          const Stage& stage);
+                          SeaClassifier* sea, const Stage& stage);
 
 /// Writes the scene's own posts, with their classes; gives the mesh's fill what was written.
 Result<void> finish_posts(const lod::DraftPosts& cleaned, const geo::GridFrame& frame,
                           const SeaClassifier& sea, lod::DraftPosts& posts, lod::MeshHeights& fill,
                           const Stage& stage);
 
-/// Builds and writes the metrics of finished posts, and fills in what `info` says of these.
+void list_outliers(const Outliers& outliers, lod::SceneInfo& info);
+
+/// Builds and writes the metrics of finished posts, and fills in what `info` says of these; of outliers only
+/// where `count_outliers`: else they were found before they were replaced.
 Result<void> measure_posts(const lod::DraftPosts& posts, const lod::MeshHeights& fill,
                            const lod::UndulationGrid& undulations, const lod::SceneWriter& writer,
-                           lod::SceneInfo& info, const Stage& stage);
+                           bool count_outliers, lod::SceneInfo& info, const Stage& stage);
 
 }  // namespace relevo::ingest

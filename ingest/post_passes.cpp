@@ -61,7 +61,7 @@ Result<void> change(lod::Posts& posts, Surroundings& where, const BlockGrid& gri
 
 }  // namespace
 
-Result<Outliers> clean_posts(const lod::DraftPosts& raw, const PostChanges& changes, lod::DraftPosts* cleaned,
+Result<Outliers> clean_posts(const lod::DraftPosts& raw, const PostChanges& changes, lod::DraftPosts& cleaned,
                              SeaClassifier& sea, const Stage& stage) {
     const BlockGrid& grid = raw.grid();
     const int halo = kOutlierHalo + (changes.fill_width > 0 ? fill_halo(changes.fill_width) : 0);
@@ -75,13 +75,11 @@ Result<Outliers> clean_posts(const lod::DraftPosts& raw, const PostChanges& chan
         if (!posts) return posts.error();
         found[static_cast<std::size_t>(i)] =
             find_outliers(posts->heights, posts->marks, where.inside, box.column, box.row);
-        if (cleaned != nullptr) {
-            if (auto changed = change(*posts, where, grid, box, changes); !changed) return changed;
-        }
+        if (auto changed = change(*posts, where, grid, box, changes); !changed) return changed;
         cut(*posts, where, around(grid, box, 0));
         if (sea.needs_blocks()) sea.add_block(column, row, posts->heights, posts->marks);
-        if (cleaned == nullptr || cleaned->has(column, row)) return {};
-        return cleaned->write(column, row, *posts);
+        if (cleaned.has(column, row)) return {};
+        return cleaned.write(column, row, std::move(*posts));
     });
     if (!done) return done.error();
     Outliers all;

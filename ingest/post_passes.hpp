@@ -20,9 +20,9 @@ struct PostChanges {
 
 /// The first pass over the sources' posts: counts outliers, replaces them and fills voids as asked, and shows
 /// the result to the classifier of the sea.
-/// \param cleaned  where the result goes, blocks that are there already stay; null where nothing is changed
+/// \param cleaned  where the result goes; blocks that are there already stay
 /// \return the outliers of `raw`
-Result<Outliers> clean_posts(const lod::DraftPosts& raw, const PostChanges& changes, lod::DraftPosts* cleaned,
+Result<Outliers> clean_posts(const lod::DraftPosts& raw, const PostChanges& changes, lod::DraftPosts& cleaned,
                              SeaClassifier& sea, const Stage& stage);
 
 /// One block of the second pass, after sea.decide(): with its classes and a bed under sea that has no

@@ -27,6 +27,7 @@ class Terrain {
         std::uint16_t radius;  ///< code of the sphere's radius; 0: nothing valid below
     };
 
+    /// The incremental error serves in place of the bounded one where a scene was imported without that.
     static Result<Terrain> load(const Scene& scene, ErrorMetric metric);
 
     /// From parts in memory: heights of the data (void = NaN) and the chosen metric's errors and radii.

@@ -1,6 +1,7 @@
 #include "lod/scene/draft_posts.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 #include "lod/scene/scene_files.hpp"
@@ -28,19 +29,27 @@ bool DraftPosts::has(int block_column, int block_row) const {
     return heights_.has(block_column, block_row) && marks_.has(block_column, block_row);
 }
 
-Result<void> DraftPosts::write(int block_column, int block_row, const Posts& posts) {
-    const BlockGrid::Box box = grid_.box(block_column, block_row);
-    const auto heights = encode_heights(posts.heights, coding_, frame_, box);
+Result<void> DraftPosts::write(int block_column, int block_row, Posts posts) {
+    const auto heights = encode_heights(posts.heights, coding_, frame_, grid_.box(block_column, block_row));
     if (!heights) return heights.error();
-    const auto marks = encode_marks(posts.marks, posts.heights);
-    if (!marks) return marks.error();
     if (auto done = heights_.write(block_column, block_row, *heights); !done) return done;
-    return marks_.write(block_column, block_row, *marks);
+    return finish({block_row, block_column}, std::move(posts));
 }
 
-Result<void> DraftPosts::take(int block_column, int block_row, const DraftPosts& from) {
-    if (auto done = heights_.take(block_column, block_row, from.heights_); !done) return done;
-    return marks_.take(block_column, block_row, from.marks_);
+Result<void> DraftPosts::write_marks(int block_column, int block_row, Posts posts,
+                                     const DraftPosts& heights_from) {
+    assert(codes_as(heights_from));
+    if (auto done = heights_.take(block_column, block_row, heights_from.heights_); !done) return done;
+    return finish({block_row, block_column}, std::move(posts));
+}
+
+Result<void> DraftPosts::finish(Place place, Posts posts) {
+    const auto marks = encode_marks(posts.marks, posts.heights);
+    if (!marks) return marks.error();
+    if (auto done = marks_.write(place.second, place.first, *marks); !done) return done;
+    // Where they are stored with loss, what is read differs from what was written.
+    if (coding_.max_error_m == 0) keep(place, std::make_shared<const Posts>(std::move(posts)));
+    return {};
 }
 
 std::shared_ptr<const Posts> DraftPosts::cached(Place place) const {

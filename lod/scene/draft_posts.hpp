@@ -32,9 +32,13 @@ class DraftPosts {
     const BlockGrid& grid() const { return grid_; }
 
     bool has(int block_column, int block_row) const;
-    Result<void> write(int block_column, int block_row, const Posts& posts);
-    /// A block as it is in another draft of the same scene.
-    Result<void> take(int block_column, int block_row, const DraftPosts& from);
+    Result<void> write(int block_column, int block_row, Posts posts);
+    /// The same where the heights are those of another draft: their file is shared and not made again.
+    Result<void> write_marks(int block_column, int block_row, Posts posts, const DraftPosts& heights_from);
+    /// Are heights stored in the same way, so that drafts can share their files?
+    bool codes_as(const DraftPosts& other) const {
+        return coding_.type == other.coding_.type && coding_.max_error_m == other.coding_.max_error_m;
+    }
 
     /// \pre has(block_column, block_row)
     Result<std::shared_ptr<const Posts>> read(int block_column, int block_row) const;
@@ -60,6 +64,7 @@ class DraftPosts {
     std::shared_ptr<const Posts> cached(Place place) const;
     void keep(Place place, std::shared_ptr<const Posts> posts) const;
     Result<Posts> load(int block_column, int block_row) const;
+    Result<void> finish(Place place, Posts posts);
 
     BlockStore heights_;
     BlockStore marks_;

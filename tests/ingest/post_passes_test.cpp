@@ -83,15 +83,13 @@ TEST(PostPasses, AreTheSameBlockByBlock) {
         auto sea = SeaClassifier::create(frame, {});
         ASSERT_TRUE(sea);
         const Progress none;
-        const auto outliers =
-            clean_posts(*raw, changes, changes.any() ? &*cleaned : nullptr, *sea, Stage{none, 0, 1});
+        const auto outliers = clean_posts(*raw, changes, *cleaned, *sea, Stage{none, 0, 1});
         ASSERT_TRUE(outliers) << outliers.error().message;
         EXPECT_GT(outliers->count, 100U);
         EXPECT_EQ(sea->decide().text, expected.info.text);
         std::uint64_t modelled = 0;
         for (const Window& block : test::blocks_of(1100, 700, 512)) {
-            const auto posts = classified_block(changes.any() ? *cleaned : *raw, frame, *sea,
-                                                block.column / 512, block.row / 512);
+            const auto posts = classified_block(*cleaned, frame, *sea, block.column / 512, block.row / 512);
             ASSERT_TRUE(posts) << posts.error().message;
             EXPECT_EQ(posts->marks.samples(), test::part(expected.marks, block).samples());
             EXPECT_TRUE(test::same_bits(posts->heights, test::part(expected.heights, block)));
