@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <memory>
 #include <numeric>
 #include <string>
@@ -104,7 +105,10 @@ void print_source(const lod::SourceInfo& source) {
 void print_resampling(const lod::SceneInfo& info) {
     if (info.resampling_method == "none") {
         fmt::print("resampling   none: the source's own posts, {}\n",
-                   info.resampling.max_m == 0 ? "bit for bit" : "rounded to float32");
+                   info.max_height_error_m > 0
+                       ? fmt::format("stored with at most {:.3g} m of loss", info.max_height_error_m)
+                   : info.resampling.max_m == 0 ? "bit for bit"
+                                                : "rounded to float32");
         return;
     }
     const lod::ResamplingError& error = info.resampling;
@@ -112,6 +116,31 @@ void print_resampling(const lod::SceneInfo& info) {
                info.resampling_method, error.posts, error.rms_m, error.max_m);
     if (error.lost_posts > 0)
         fmt::print("             {} source posts have no height here\n", error.lost_posts);
+}
+
+void print_outliers(const lod::SceneInfo& info) {
+    if (info.outlier_posts == 0) return;
+    const lod::OutlierInfo& worst = info.outliers.front();
+    const geo::LatLon place =
+        info.frame.lat_lon({static_cast<double>(worst.column), static_cast<double>(worst.row)});
+    fmt::print(
+        "outliers     {}; the farthest from its surroundings: {:.6g} m at {:.6f},{:.6f}, median {:.6g} m\n",
+        info.outlier_posts, worst.H_m, place.lat.value, geo::wrapped_180(place.lon).value, worst.median_m);
+}
+
+void print_seams(const lod::SceneInfo& info) {
+    constexpr std::size_t kShown = 10;
+    for (std::size_t i = 0; i < std::min(info.seams.size(), kShown); ++i) {
+        const lod::SeamInfo& seam = info.seams[i];
+        const auto name = [&](int source) {
+            const auto index = static_cast<std::size_t>(source);
+            return index < info.sources.size() ? info.sources[index].name : std::string("other sources");
+        };
+        fmt::print("seam         {} - {}: largest step {:.3g} m, {:.3g} m RMS\n", name(seam.first),
+                   name(seam.second), seam.max_step_m, seam.rms_step_m);
+    }
+    if (info.seams.size() > kShown)
+        fmt::print("             and {} seams more (--json)\n", info.seams.size() - kShown);
 }
 
 void print_text(const std::string& name, const lod::SceneInfo& info, const Derived& derived) {
@@ -133,11 +162,13 @@ void print_text(const std::string& name, const lod::SceneInfo& info, const Deriv
         fmt::print("             {} filled over voids or outliers\n", info.filled_posts);
     fmt::print("sea          {} posts, {} of them with a made-up bed: {}\n", info.sea_posts,
                info.modelled_posts, info.sea.text);
-    if (info.outlier_posts > 0) fmt::print("outliers     {}\n", info.outlier_posts);
+    print_outliers(info);
     print_resampling(info);
     fmt::print("surface      bilinear (measured) and triangles (drawn) differ by at most {:.3g} m\n",
                info.bilinear_mesh_max_m);
     for (const lod::SourceInfo& source : info.sources) print_source(source);
+    print_seams(info);
+    for (const std::string& note : info.notes) fmt::print("note         {}\n", note);
     fmt::print("size         {}, {:.2f} bytes a post (heights {:.2f}, errors and radii {:.2f})\n",
                mebibytes(info.bytes()), derived.per_post(info.bytes()),
                derived.per_post(derived.height_bytes), derived.per_post(derived.metric_bytes));

@@ -132,16 +132,16 @@ void print_notes(const Settings& s, const std::vector<std::string>& notes) {
 }
 
 nlohmann::json frame_json(const geo::GridFrame& frame) {
-    return {{"columns", frame.columns},
-            {"rows", frame.rows},
-            {"step_x", frame.step_x},
-            {"step_y", frame.step_y},
-            {"step_unit", "degree"},
-            {"extent",
-             {{"west", frame.west},
-              {"south", frame.north - frame.step_y * (frame.rows - 1)},
-              {"east", frame.west + frame.step_x * (frame.columns - 1)},
-              {"north", frame.north}}}};
+    const geo::GridFrame::Extent extent = frame.extent();
+    return {
+        {"columns", frame.columns},
+        {"rows", frame.rows},
+        {"frame", lod::to_string(frame.kind)},
+        {"step_x", frame.step_x},
+        {"step_y", frame.step_y},
+        {"step_unit", lod::step_unit(frame.kind)},
+        {"extent",
+         {{"west", extent.west}, {"south", extent.south}, {"east", extent.east}, {"north", extent.north}}}};
 }
 
 nlohmann::json plan_json(const ingest::ImportPlan& plan) {
@@ -177,8 +177,8 @@ Result<void> show_plan(const Settings& s) {
         fmt::print("{}\n", plan_json(*plan).dump(2));
         return {};
     }
-    fmt::print("{} x {} posts, step {:.10g} x {:.10g} degrees ({})\n", plan->frame.columns, plan->frame.rows,
-               plan->frame.step_x, plan->frame.step_y,
+    fmt::print("{} x {} posts, step {:.10g} x {:.10g} {} ({})\n", plan->frame.columns, plan->frame.rows,
+               plan->frame.step_x, plan->frame.step_y, lod::step_unit(plan->frame.kind),
                plan->resampling == "none" ? "the sources' own" : "resampled: " + plan->resampling);
     fmt::print("{} posts, {} with padding; about {:.1f} MiB on disk; at least {:.1f} MiB of memory\n",
                plan->posts, plan->padded_posts, static_cast<double>(plan->bytes_estimate) / 1048576,

@@ -89,13 +89,18 @@ void note_strange_heights(const lod::SceneInfo& info, std::vector<std::string>& 
                     info.height_min_m, info.height_max_m));
 }
 
-/// The geoid under the meshes: of the scene's datum, or EGM96 where that has none here.
-Result<lod::UndulationGrid> undulations_of(const Mosaic& mosaic, const ImportOptions& options) {
+/// The geoid under the meshes: of the scene's datum, or EGM96 where that has none here, which is then said.
+Result<lod::UndulationGrid> undulations_of(const Mosaic& mosaic, const ImportOptions& options,
+                                           lod::VerticalReference& vertical,
+                                           std::vector<std::string>& notes) {
     const geo::GridFrame& frame = mosaic.frame();
     if (mosaic.vertical().datum == lod::VerticalDatum::ellipsoid) return lod::UndulationGrid{};
     if (mosaic.vertical().datum == lod::VerticalDatum::other) {
         const auto own = geoid_of(mosaic.vertical(), options.mosaic.geoid);
         if (own && *own) return lod::UndulationGrid{**own, frame};
+        vertical.geoid_known = false;
+        notes.push_back(fmt::format("pictures put {} on EGM96; h and N stay unknown ({})", vertical.name,
+                                    own ? "it has no geoid" : own.error().message));
     }
     const auto geoid = geo::Geoid::egm96();
     if (!geoid) return geoid.error();
@@ -166,10 +171,16 @@ Result<Copied> make_posts(const Mosaic& mosaic, const ImportOptions& options, lo
     return Copied::all;
 }
 
+/// What shows only when the heights have been read.
+struct Findings {
+    bool too_wide = false;  ///< a whole number does not fit int16: to be begun again
+    bool all_void = false;
+};
+
 /// All steps of an import in their order; the scene is in its place at the end.
 Result<void> run(const Mosaic& mosaic, const ImportOptions& options, lod::HeightType type,
                  const std::vector<FileState>& files, lod::SceneWriter& writer, const Progress& progress,
-                 ImportPlan& plan, bool& too_wide) {
+                 ImportPlan& plan, Findings& found) {
     const MemoryBudget memory =
         divide_memory(options.memory_bytes, mosaic.frame(), mosaic.memory_bytes(), threads());
     GDALSetCacheMax64(static_cast<GIntBig>(memory.gdal_cache));
@@ -182,8 +193,8 @@ Result<void> run(const Mosaic& mosaic, const ImportOptions& options, lod::Height
     auto copied = make_posts(mosaic, options, type, writer, memory.posts_cache / 3, *posts, fill, info,
                              Stage{progress, 0, 0.5});
     if (!copied) return copied.error();
-    too_wide = *copied == Copied::too_wide_for_int16;
-    if (too_wide) return {};
+    found.too_wide = *copied == Copied::too_wide_for_int16;
+    if (found.too_wide) return {};
     const bool say_sea = info.sea.rule == lod::SeaInfo::Rule::low_border || info.sea.low_areas_land > 0;
     if (say_sea) plan.notes.push_back("sea: " + info.sea.text);
 
@@ -194,14 +205,15 @@ Result<void> run(const Mosaic& mosaic, const ImportOptions& options, lod::Height
     info.bounded_errors = options.bounded_errors;
     info.resampling_method = plan.resampling;
     info.sources = plan.sources;
-    const auto undulations = undulations_of(mosaic, options);
+    const auto undulations = undulations_of(mosaic, options, info.vertical, plan.notes);
     if (!undulations) return undulations.error();
     if (auto done =
             measure_posts(*posts, fill, *undulations, writer, !options.despike && options.fill_width == 0,
                           info, Stage{progress, 0.5, 0.85});
         !done)
         return done;
-    if (info.valid_posts == 0)
+    found.all_void = info.valid_posts == 0;
+    if (found.all_void)
         return refusal(inputs_named(plan), "all of it is void",
                        "Check --nodata and --crop, or whether it holds heights at all");
     const auto scene_heights = [&](Window w) -> Result<lod::Raster<float>> {
@@ -217,7 +229,11 @@ Result<void> run(const Mosaic& mosaic, const ImportOptions& options, lod::Height
     if (plan.resampling == "none" && info.resampling.max_m > 0 && options.max_height_error_m == 0)
         plan.notes.push_back(
             fmt::format("float32 rounds its heights by up to {:.2g} m", info.resampling.max_m));
-    if (info.sources.size() == 1) info.sources[0].notes = fmt::format("{}", fmt::join(plan.notes, "; "));
+    if (info.sources.size() == 1) {
+        info.sources[0].notes = fmt::format("{}", fmt::join(plan.notes, "; "));
+    } else {
+        info.notes = plan.notes;
+    }
     if (auto done = add_checksums(mosaic, info); !done) return done;
     if (auto same = check_unchanged(files, states_of(mosaic.all_files())); !same) return same;
     if (auto done = writer.write_undulations(*undulations); !done) return done;
@@ -225,9 +241,11 @@ Result<void> run(const Mosaic& mosaic, const ImportOptions& options, lod::Height
     return writer.commit(std::move(info));
 }
 
-Error with_remedy(Error error) {
-    if (error.kind == ErrorKind::internal)
-        error.message += ". What is finished is kept: the same command with --resume goes on from there";
+/// What is finished stays for --resume, if anything is.
+Error stopped(Error error, lod::SceneWriter& writer) {
+    if (!writer.has_blocks()) return error;
+    writer.keep_for_resume();
+    error.message += ". What is finished is kept: the same command with --resume goes on from there";
     return error;
 }
 
@@ -254,11 +272,10 @@ Result<Imported> import_scene(const ImportOptions& options, const ImportPlace& p
             place.scene, {place.overwrite, place.resume, job_text(options, files, type)});
         if (!writer) return writer.error();
         anew = place.resume && !writer->resumed();
-        bool too_wide = false;
-        const auto done = run(*mosaic, options, type, files, *writer, progress, plan, too_wide);
-        if (!done && done.error().kind == ErrorKind::internal) writer->keep_for_resume();
-        if (!done) return with_remedy(done.error());
-        if (!too_wide) break;
+        Findings found;
+        const auto done = run(*mosaic, options, type, files, *writer, progress, plan, found);
+        if (!done) return found.all_void ? done.error() : stopped(done.error(), *writer);
+        if (!found.too_wide) break;
         type = lod::HeightType::float32;
     }
     if (progress) progress(1);

@@ -60,9 +60,8 @@ struct ImportPlace {
 };
 
 /// Imports the sources as the scene at a place. On failure a scene that was there is as it was. Where the
-/// import is killed or stopped (progress says so, a full disk), finished blocks stay in a hidden folder
-/// beside the place for `resume`, until the next import to this place; where the sources cannot be used,
-/// nothing stays.
+/// import is killed or fails (progress says stop, a full disk, a source that vanishes), finished blocks stay
+/// in a hidden folder beside the place for `resume`, until the next import to this place.
 Result<Imported> import_scene(const ImportOptions& options, const ImportPlace& place,
                               const Progress& progress = {});
 

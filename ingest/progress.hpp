@@ -10,7 +10,7 @@ namespace relevo::ingest {
 using Progress = std::function<bool(double)>;
 
 inline Error interrupted() {
-    return {ErrorKind::internal, "interrupted: nothing was written"};
+    return {ErrorKind::internal, "interrupted: the scene is not in its place"};
 }
 
 /// A part of a longer work: its own 0 to 1 is `from` to `to` of the whole. May be empty.

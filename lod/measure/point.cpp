@@ -6,14 +6,19 @@
 namespace relevo::lod {
 namespace {
 
-std::optional<geo::Undulation> undulation(VerticalDatum datum, const geo::Geoid* geoid, geo::LatLon place) {
-    switch (datum) {
+/// N of the scene's datum; nothing where that is unknown. EGM96 comes from its model, another datum's from
+/// the grid that the scene keeps.
+std::optional<geo::Undulation> undulation(const Scene& scene, const geo::Geoid* geoid, geo::LatLon place,
+                                          geo::GridPosition position, bool inside) {
+    const VerticalReference& vertical = scene.info().vertical;
+    switch (vertical.datum) {
         case VerticalDatum::ellipsoid:
             return geo::Undulation{0};
         case VerticalDatum::egm96:
             if (geoid != nullptr) return geoid->undulation(place);
             break;
         case VerticalDatum::other:
+            if (vertical.geoid_known && inside) return geo::Undulation{scene.undulations().at(position)};
             break;
     }
     return {};
@@ -26,12 +31,13 @@ Result<PointMeasurement> measure_point(HeightSampler& sampler, const geo::Geoid*
     const geo::GridPosition position = info.frame.grid_position(place);
     PointMeasurement point;
     point.place = place;
-    point.N = undulation(info.vertical.datum, geoid, place);
+    const bool inside = sampler.inside(position);
+    point.N = undulation(sampler.scene(), geoid, place, position, inside);
     const auto spacing =
         info.frame.spacing({std::clamp(position.column, 0.0, static_cast<double>(info.frame.columns - 1)),
                             std::clamp(position.row, 0.0, static_cast<double>(info.frame.rows - 1))});
     point.resolution_m = std::max(spacing.column_m, spacing.row_m);
-    if (!sampler.inside(position)) return point;
+    if (!inside) return point;
 
     const auto H = sampler.height(position);
     if (!H) return H.error();

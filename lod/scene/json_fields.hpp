@@ -1,10 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -61,6 +63,15 @@ class JsonFields {
         if (value == nullptr) return {};
         if (!value->is_string()) return wrong(key, "is not text"), std::string{};
         return value->get<std::string>();
+    }
+
+    std::vector<std::string> texts(const char* key) {
+        const nlohmann::json* value = find(key);
+        if (value == nullptr) return {};
+        const bool right = value->is_array() && std::all_of(value->begin(), value->end(),
+                                                            [](const auto& one) { return one.is_string(); });
+        if (!right) return wrong(key, "is not a list of texts"), std::vector<std::string>{};
+        return value->get<std::vector<std::string>>();
     }
 
     bool flag(const char* key) {

@@ -296,6 +296,7 @@ nlohmann::json to_json(const SceneInfo& info) {
             {"vertical_datum", to_string(info.vertical.datum)},
             {"vertical_name", info.vertical.name},
             {"vertical_assumed", info.vertical.assumed},
+            {"geoid_known", info.vertical.geoid_known},
             {"height_type", to_string(info.height_type)},
             {"max_height_error_m", info.max_height_error_m},
             {"height_min_m", info.height_min_m},
@@ -317,6 +318,7 @@ nlohmann::json to_json(const SceneInfo& info) {
               {"posts", info.resampling.posts},
               {"lost_posts", info.resampling.lost_posts}}},
             {"sources", std::move(sources)},
+            {"notes", info.notes},
             {"block_side", SceneInfo::kBlockSide},
             {"heights", to_json(info.heights)},
             {"marks", to_json(info.marks)},
@@ -349,11 +351,13 @@ Result<SceneInfo> scene_info_from_json(const nlohmann::json& json) {
                                 {VerticalDatum::egm96, VerticalDatum::ellipsoid, VerticalDatum::other});
     info.vertical.name = fields.text("vertical_name");
     info.vertical.assumed = fields.flag("vertical_assumed");
+    info.vertical.geoid_known = fields.flag("geoid_known");
     info.height_type = named(fields, "height_type", {HeightType::int16, HeightType::float32});
     info.max_height_error_m = fields.number("max_height_error_m", 0, kMaxHeight);
     fields.integer("block_side", SceneInfo::kBlockSide, SceneInfo::kBlockSide);
     if (problem.empty()) read_statistics(fields, info);
     fields.each("sources", [&](JsonFields& source) { info.sources.push_back(source_from(source)); });
+    info.notes = fields.texts("notes");
     if (problem.empty()) read_files(fields, info);
     if (!problem.empty()) return Error{ErrorKind::damaged, problem};
     return info;

@@ -24,6 +24,7 @@ struct VerticalReference {
     VerticalDatum datum = VerticalDatum::egm96;
     std::string name = "EGM96";  ///< for people
     bool assumed = true;         ///< the source did not say
+    bool geoid_known = true;     ///< the scene's undulations are those of this datum, else of EGM96
 };
 
 /// How heights are stored in the blocks.
@@ -114,6 +115,7 @@ struct SceneInfo {
     std::string resampling_method;  ///< "none" (own posts kept), "cubic", "bilinear", "nearest", "average"
 
     std::vector<SourceInfo> sources;
+    std::vector<std::string> notes;  ///< of several sources: what was assumed or converted, for people
     std::vector<BlockInfo> heights;
     std::vector<BlockInfo> marks;
     bool bounded_errors = true;  ///< else the metrics hold the incremental error alone

@@ -36,6 +36,15 @@ bool SceneWriter::resumed() const {
     return state_->place.resumed();
 }
 
+bool SceneWriter::has_blocks() const {
+    std::error_code error;
+    for (std::filesystem::directory_iterator it(state_->folder().path(), error), end; !error && it != end;
+         it.increment(error)) {
+        if (it->path().extension() == ".journal" && it->file_size(error) > 0) return true;
+    }
+    return false;
+}
+
 void SceneWriter::keep_for_resume() {
     state_->place.keep();
 }

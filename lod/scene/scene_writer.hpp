@@ -27,6 +27,9 @@ class SceneWriter {
     /// Does it go on from what an earlier writer has left?
     bool resumed() const;
 
+    /// Is any block finished?
+    bool has_blocks() const;
+
     /// From here on, what is finished stays on disk for a writer that resumes, if this one ends early.
     void keep_for_resume();
 
