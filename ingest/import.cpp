@@ -97,8 +97,8 @@ Result<lod::UndulationGrid> undulations_of(const Mosaic& mosaic, const ImportOpt
     if (mosaic.vertical().datum == lod::VerticalDatum::ellipsoid) return lod::UndulationGrid{};
     if (mosaic.vertical().datum == lod::VerticalDatum::other) {
         const auto own = geoid_of(mosaic.vertical(), options.mosaic.geoid);
-        if (own && *own) return lod::UndulationGrid{**own, frame};
-        vertical.geoid_known = false;
+        vertical.geoid_known = own && own->has_value();
+        if (vertical.geoid_known) return lod::UndulationGrid{**own, frame};
         notes.push_back(fmt::format("pictures put {} on EGM96; h and N stay unknown ({})", vertical.name,
                                     own ? "it has no geoid" : own.error().message));
     }

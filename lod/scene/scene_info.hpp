@@ -24,7 +24,7 @@ struct VerticalReference {
     VerticalDatum datum = VerticalDatum::egm96;
     std::string name = "EGM96";  ///< for people
     bool assumed = true;         ///< the source did not say
-    bool geoid_known = true;     ///< the scene's undulations are those of this datum, else of EGM96
+    bool geoid_known = false;    ///< of another datum: the scene's undulations are its own, not EGM96's
 };
 
 /// How heights are stored in the blocks.
