@@ -127,7 +127,7 @@ Result<void> measure_posts(const lod::DraftPosts& posts, const lod::MeshHeights&
     const geo::PostPositions positions(frame);
     lod::MetricBuilder metrics(
         {frame, positions, undulations, fill},
-        info.bounded_errors ? lod::MetricBuilder::Errors::both : lod::MetricBuilder::Errors::incremental);
+        info.bounded_errors ? lod::ObjectErrors::both : lod::ObjectErrors::incremental);
     auto layer = writer.layer(lod::kMetricsFolder);
     if (!layer) return layer.error();
     const int side = frame.padded_side();

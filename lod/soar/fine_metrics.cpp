@@ -18,7 +18,12 @@ double distance2(const glm::dvec3& a, const glm::dvec3& b) {
 
 class FineBuilder {
   public:
-    FineBuilder(const MetricTile& tile, int levels) : tile_(tile), window_(tile.window()), levels_(levels) {
+    FineBuilder(const MetricTile& tile, int levels, ObjectErrors errors)
+        : tile_(tile),
+          window_(tile.window()),
+          levels_(levels),
+          with_bounded_(errors == ObjectErrors::both),
+          scanned_(with_bounded_ || !tile.all_valid()) {
         for (auto* raster : {&codes_.bounded, &codes_.incremental, &codes_.radius})
             *raster = Raster<std::uint16_t>(window_.columns, window_.rows);
     }
@@ -63,7 +68,7 @@ class FineBuilder {
             radius_m2 = std::max(radius_m2, distance2(here, top));
             if (last_level) {
                 corner_is_valid = corner_is_valid || tile_.is_valid(apex);
-            } else {
+            } else if (scanned_) {
                 deviation.join(tile_.deviation({{d.left, d.right, apex}, {left, right, top}}, window_));
             }
         }
@@ -72,9 +77,9 @@ class FineBuilder {
             const double m = m2 > 0 ? std::sqrt(m2) : 0;
             return m < kNegligibleM ? std::uint16_t{0} : encode_up(m);
         };
-        std::uint16_t bounded = code_of(deviation.max_m2);
+        std::uint16_t bounded = with_bounded_ ? code_of(deviation.max_m2) : std::uint16_t{0};
         std::uint16_t incremental = code_of(incremental_m2);
-        bool empty = !deviation.any_post() && !corner_is_valid;
+        bool empty = scanned_ && !deviation.any_post() && !corner_is_valid;
         for (const GridPoint& child : children(v, level, levels_)) {
             const int x = child.column - window_.column;
             const int y = child.row - window_.row;
@@ -98,13 +103,15 @@ class FineBuilder {
     const MetricTile& tile_;
     const BlockGrid::Box& window_;
     int levels_;
+    bool with_bounded_;
+    bool scanned_;  // for the bounded error, or to know which vertices have no valid post in their diamond
     MetricRasters codes_;
 };
 
 }  // namespace
 
-MetricRasters fine_metrics(const MetricTile& tile, int levels, int half_size) {
-    return FineBuilder(tile, levels).build(half_size);
+MetricRasters fine_metrics(const MetricTile& tile, int levels, int half_size, ObjectErrors errors) {
+    return FineBuilder(tile, levels, errors).build(half_size);
 }
 
 }  // namespace relevo::lod

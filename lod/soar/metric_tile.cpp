@@ -126,6 +126,7 @@ MetricTile::MetricTile(const MeshGround& ground, const Box& window, const Raster
             } else {
                 H = static_cast<double>(ground.fill.padding(column, row));
             }
+            all_valid_ = all_valid_ && hole_[i] == 0;
             const glm::dvec3 p = ground.positions.at(column, row, H + ground.undulations.at(column, row));
             x_[i] = p.x;
             y_[i] = p.y;

@@ -60,6 +60,7 @@ class MetricTile {
 
     const Box& window() const { return window_; }
     bool any_valid() const { return any_valid_; }
+    bool all_valid() const { return all_valid_; }
 
     /// \pre the post is in the window; as for all below
     glm::dvec3 position(const GridPoint& p) const {
@@ -80,6 +81,7 @@ class MetricTile {
 
     Box window_;
     bool any_valid_ = false;
+    bool all_valid_ = true;
     std::vector<double> x_, y_, z_;
     std::vector<double> hole_;  // 0 where there is a valid post, else NaN
 };

@@ -42,7 +42,7 @@ int aligned(int value, int size) {
 
 }  // namespace
 
-MetricBuilder::MetricBuilder(const MeshGround& ground, Errors errors)
+MetricBuilder::MetricBuilder(const MeshGround& ground, ObjectErrors errors)
     : ground_(ground),
       errors_(errors),
       levels_(ground.frame.levels()),
@@ -59,9 +59,9 @@ MetricRasters MetricBuilder::add_tile(const BlockGrid::Box& tile, const Raster<f
                         Raster<std::uint16_t>(tile.columns, tile.rows),
                         Raster<std::uint16_t>(tile.columns, tile.rows)};
     if (!posts.any_valid()) return codes;
-    const MetricRasters fine = fine_metrics(posts, levels_, kFineHalfSize);
+    const MetricRasters fine = fine_metrics(posts, levels_, kFineHalfSize, errors_);
     join_fine(posts, tile, fine);
-    if (errors_ == Errors::both) scan_coarse(posts, tile);
+    if (errors_ == ObjectErrors::both) scan_coarse(posts, tile);
 
     const int dx = tile.column - posts.window().column;
     const int dy = tile.row - posts.window().row;
@@ -69,7 +69,7 @@ MetricRasters MetricBuilder::add_tile(const BlockGrid::Box& tile, const Raster<f
         for (int row = 0; row < tile.rows; ++row)
             std::copy_n(from.row(row + dy) + dx, tile.columns, to.row(row));
     };
-    if (errors_ == Errors::both) cut(fine.bounded, codes.bounded);
+    cut(fine.bounded, codes.bounded);
     cut(fine.incremental, codes.incremental);
     cut(fine.radius, codes.radius);
     return codes;
@@ -189,12 +189,12 @@ MetricRasters MetricBuilder::finish() {
 }
 
 MetricRasters build_metrics(const geo::GridFrame& frame, const UndulationGrid& undulations,
-                            const Raster<float>& heights) {
+                            const Raster<float>& heights, ObjectErrors errors) {
     const geo::PostPositions positions(frame);
     MeshHeights fill(frame);
     fill.add(0, 0, heights);
     fill.finish();
-    MetricBuilder builder({frame, positions, undulations, fill}, MetricBuilder::Errors::both);
+    MetricBuilder builder({frame, positions, undulations, fill}, errors);
     const int side = frame.padded_side();
     MetricRasters all{Raster<std::uint16_t>(side, side), Raster<std::uint16_t>(side, side),
                       Raster<std::uint16_t>(side, side)};

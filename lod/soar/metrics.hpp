@@ -3,6 +3,7 @@
 #include "geo/frame.hpp"
 #include "lod/scene/block_grid.hpp"
 #include "lod/scene/raster.hpp"
+#include "lod/soar/fine_metrics.hpp"
 #include "lod/soar/metric_tile.hpp"
 #include "lod/undulation_grid.hpp"
 
@@ -21,10 +22,8 @@ namespace relevo::lod {
 /// 1/64 of the posts. So a grid of any size is read once.
 class MetricBuilder {
   public:
-    enum class Errors { both, incremental };  ///< incremental alone is cheaper: no post is scanned
-
     /// \pre the ground outlives this, its fill is finished
-    MetricBuilder(const MeshGround& ground, Errors errors);
+    MetricBuilder(const MeshGround& ground, ObjectErrors errors);
 
     /// Codes of the fine vertices of a tile (0 at posts of the lattice). May be called from several threads.
     /// \param heights  H of the data in MetricTile::window_of(tile), void = NaN
@@ -42,7 +41,7 @@ class MetricBuilder {
     glm::dvec3 position(const GridPoint& lattice_point) const;
 
     MeshGround ground_;
-    Errors errors_;
+    ObjectErrors errors_;
     int levels_;
     int lattice_levels_;  // of the hierarchy of the lattice, which is that of the grid without its fine
                           // levels
@@ -52,6 +51,6 @@ class MetricBuilder {
 /// The same for a grid in memory: the codes of the whole padded grid.
 /// \param heights  H of the data, metres, void = NaN
 MetricRasters build_metrics(const geo::GridFrame& frame, const UndulationGrid& undulations,
-                            const Raster<float>& heights);
+                            const Raster<float>& heights, ObjectErrors errors = ObjectErrors::both);
 
 }  // namespace relevo::lod

@@ -164,15 +164,29 @@ TEST(Metrics, AreTheirDefinitionWithVoids) {
                               }));
 }
 
+Raster<float> mountains_with_holes(const geo::GridFrame& frame) {
+    return test::make_heights(frame, [](int column, int row) {
+        const bool hole = std::hypot(column - 505, row - 515) < 30 || (column > 900 && row < 9);
+        return hole ? std::nan("") : test::mountains(column, row);
+    });
+}
+
+TEST(Metrics, OfTheIncrementalErrorAloneAreTheSame) {
+    const auto frame = test::geographic_frame(1030, 540, 47, 11, 1.0 / 1200);
+    const auto heights = mountains_with_holes(frame);
+    const MetricRasters both = build_metrics(frame, {}, heights);
+    const MetricRasters alone = build_metrics(frame, {}, heights, ObjectErrors::incremental);
+    EXPECT_TRUE(alone.incremental.samples() == both.incremental.samples());
+    EXPECT_TRUE(alone.radius.samples() == both.radius.samples());
+    for (const std::uint16_t code : alone.bounded.samples()) ASSERT_EQ(code, 0);
+}
+
 // More than one tile a side, voids and data that ends inside a tile: what tiles add up to is what the whole
 // grid gives. Small grids are compared with brute force above; this has its own scan of each diamond's
 // bounding box, without tiles, halos or a lattice.
 TEST(Metrics, DoNotDependOnTiles) {
     const auto frame = test::geographic_frame(1030, 540, 47, 11, 1.0 / 1200);
-    const auto heights = test::make_heights(frame, [](int column, int row) {
-        const bool hole = std::hypot(column - 505, row - 515) < 30 || (column > 900 && row < 9);
-        return hole ? std::nan("") : test::mountains(column, row);
-    });
+    const auto heights = mountains_with_holes(frame);
     const MetricRasters metrics = build_metrics(frame, {}, heights);
     const Raster<float> mesh = mesh_heights(frame, heights);
     const geo::PostPositions positions(frame);
