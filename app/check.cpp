@@ -60,7 +60,7 @@ Result<void> check_files(const lod::Scene& scene, const CheckOptions& options, J
 Result<void> check_nesting(const lod::Scene& scene, const CheckOptions& options, Json& report) {
     const auto heights = scene.read_all_heights();
     if (!heights) return heights.error();
-    const auto metrics = lod::load_metrics(scene, *heights);
+    const auto metrics = lod::load_metrics(scene, *heights, scene.undulations());
     if (!metrics) return metrics.error();
     const std::uint64_t faults = lod::count_nesting_faults(scene.info().frame, *metrics);
     report["nesting_faults"] = faults;

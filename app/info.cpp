@@ -47,7 +47,7 @@ struct Derived {
 void print_json(const lod::SceneInfo& info, const Derived& derived) {
     nlohmann::json json = lod::to_json(info);
     for (const char* only_on_disk :
-         {"heights", "marks", "metrics", "lattice", "undulation", "block_side", "vertical_name"}) {
+         {"heights", "marks", "metrics", "lattice", "geoid", "block_side", "vertical_name"}) {
         json.erase(only_on_disk);
     }
     json["extent"] = {{"west", derived.extent.west},

@@ -8,7 +8,6 @@
 
 #include "app/command.hpp"
 #include "geo/coordinate_text.hpp"
-#include "geo/geoid.hpp"
 #include "lod/measure/height_sampler.hpp"
 #include "lod/measure/line.hpp"
 #include "lod/measure/point.hpp"
@@ -129,13 +128,7 @@ void print_text(const Point& point, const lod::SceneInfo& info) {
 
 Result<void> measure_point(const Settings& settings, lod::HeightSampler& sampler, geo::LatLon place) {
     const lod::SceneInfo& info = sampler.scene().info();
-    std::optional<geo::Geoid> geoid;
-    if (info.vertical.datum == lod::VerticalDatum::egm96) {
-        auto read = geo::Geoid::egm96();
-        if (!read) return read.error();
-        geoid = *std::move(read);
-    }
-    const auto measured = lod::measure_point(sampler, geoid ? &*geoid : nullptr, place);
+    const auto measured = lod::measure_point(sampler, place);
     if (!measured) return measured.error();
     Point point{*measured, nullptr, {}};
     if (!info.sources.empty()) {

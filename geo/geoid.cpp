@@ -155,7 +155,10 @@ Geoid Geoid::whole_earth(const GeoidNodes& nodes) {
     geoid.whole_earth_ = true;
     geoid.columns_ = nodes.columns - nodes.columns % 2;  // without the closing column
     geoid.rows_ = nodes.rows;
+    geoid.south_ = -90;
     geoid.west_ = nodes.west;
+    geoid.step_lat_ = 180.0 / (geoid.rows_ - 1);
+    geoid.step_lon_ = 360.0 / geoid.columns_;
     const auto columns = static_cast<std::size_t>(geoid.columns_);
     const auto rows = static_cast<std::size_t>(geoid.rows_);
     std::vector<double>& c = geoid.coefficients_;
@@ -187,6 +190,7 @@ Geoid Geoid::region(const GeoidNodes& nodes) {
     geoid.west_ = nodes.west;
     geoid.step_lat_ = nodes.step_lat;
     geoid.step_lon_ = nodes.step_lon;
+    geoid.band_ = all_round(nodes);
     geoid.columns_ = nodes.columns;
     geoid.rows_ = nodes.rows;
     std::vector<double> N = nodes.undulations;
@@ -241,6 +245,49 @@ bool Geoid::covers(LatLon place) const {
                            static_cast<std::size_t>(c)] == 0)
                 return false;
     return true;
+}
+
+GeoidNodes Geoid::nodes_around(const GridFrame::Extent& area) const {
+    constexpr int kSpare = 20;  // the influence of what is beyond falls by 0.27 a node
+    const auto node_below = [](double nodes) { return static_cast<int>(std::floor(nodes + kSlack)); };
+    const int lowest = node_below((area.south - south_) / step_lat_) - kSpare;
+    const int highest = node_below((area.north - south_) / step_lat_) + 1 + kSpare;
+    const int leftmost =
+        node_below(whole_earth_ ? (area.west - west_) / step_lon_ : column_of(Degrees{area.west})) - kSpare;
+    const int rightmost = leftmost + node_below((area.east - area.west) / step_lon_) + 2 + 2 * kSpare;
+    const bool all_rows = whole_earth_ && (lowest < 0 || highest >= rows_);
+    const bool all_columns = all_rows || band_ || rightmost - leftmost + 1 >= columns_;
+    const bool turns = whole_earth_ && !all_columns;  // else columns end with the grid's
+
+    GeoidNodes nodes;
+    nodes.step_lat = step_lat_;
+    nodes.step_lon = step_lon_;
+    const int first_row = all_rows ? 0 : std::clamp(lowest, 0, rows_ - 4);
+    const int last_row = all_rows ? rows_ - 1 : std::clamp(highest, first_row + 3, rows_ - 1);
+    const int first_column = all_columns ? 0 : turns ? leftmost : std::clamp(leftmost, 0, columns_ - 4);
+    const int last_column = all_columns ? columns_ - 1
+                            : turns     ? rightmost
+                                        : std::clamp(rightmost, first_column + 3, columns_ - 1);
+    nodes.south = south_ + first_row * step_lat_;
+    nodes.west = west_ + first_column * step_lon_;
+    nodes.rows = last_row - first_row + 1;
+    nodes.columns = last_column - first_column + 1;
+    for (int row = first_row; row <= last_row; ++row) {
+        for (int column = first_column; column <= last_column; ++column)
+            nodes.undulations.push_back(static_cast<double>(static_cast<float>(node(column, row))));
+    }
+    return nodes;
+}
+
+/// N at a node; NaN where it has none. \pre the row is one of the grid's; the column too, or its grid turns
+double Geoid::node(int column, int row) const {
+    if (!has_value_.empty() && has_value_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                                          static_cast<std::size_t>(column)] == 0)
+        return std::numeric_limits<double>::quiet_NaN();
+    // A pole is one point, but rounding differs between its columns.
+    const bool at_pole = whole_earth_ && (row == 0 || row == rows_ - 1);
+    const double lat = std::clamp(south_ + row * step_lat_, -90.0, 90.0);
+    return undulation({Degrees{lat}, Degrees{west_ + (at_pole ? 0 : column) * step_lon_}}).m;
 }
 
 Undulation Geoid::undulation(LatLon place) const {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "geo/frame.hpp"
 #include "geo/geoid_nodes.hpp"
 #include "geo/height.hpp"
 #include "geo/position.hpp"
@@ -42,6 +43,11 @@ class Geoid {
     /// Does the model say what N is there? \pre lat in [-90, 90], lon finite
     bool covers(LatLon place) const;
 
+    /// The nodes in an area and as many around it that a geoid made of them is this one there, to 1e-9 m and
+    /// what rounding nodes to float changes (nothing where the model came as floats). Near a pole of a grid
+    /// of the whole earth these are all, since meridians go on beyond it.
+    GeoidNodes nodes_around(const GridFrame::Extent& area) const;
+
   private:
     Geoid() = default;
 
@@ -49,9 +55,11 @@ class Geoid {
     static Geoid region(const GeoidNodes& nodes);
     Undulation undulation_on_earth(LatLon place) const;
     double column_of(Degrees lon) const;
+    double node(int column, int row) const;
 
     bool whole_earth_ = false;
-    double south_ = 0;  // of node (0, 0), degrees
+    bool band_ = false;  // a region all round the earth, which overlaps itself
+    double south_ = 0;   // of node (0, 0), degrees
     double west_ = 0;
     double step_lat_ = 0;
     double step_lon_ = 0;

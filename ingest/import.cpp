@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -26,7 +27,7 @@
 namespace relevo::ingest {
 namespace {
 
-constexpr std::uint64_t kDiskOfMetrics = 1;  // bytes a post, measured (docs/scene-format.md)
+constexpr std::uint64_t kDiskOfMetrics = 1;  // bytes a post, rounded up (docs/performance.md)
 
 int threads() {
     return tbb::this_task_arena::max_concurrency();
@@ -90,21 +91,42 @@ void note_strange_heights(const lod::SceneInfo& info, std::vector<std::string>& 
 }
 
 /// The geoid under the meshes: of the scene's datum, or EGM96 where that has none here, which is then said.
-Result<lod::UndulationGrid> undulations_of(const Mosaic& mosaic, const ImportOptions& options,
-                                           lod::VerticalReference& vertical,
-                                           std::vector<std::string>& notes) {
-    const geo::GridFrame& frame = mosaic.frame();
-    if (mosaic.vertical().datum == lod::VerticalDatum::ellipsoid) return lod::UndulationGrid{};
+Result<std::optional<geo::Geoid>> geoid_under(const Mosaic& mosaic, const ImportOptions& options,
+                                              lod::VerticalReference& vertical,
+                                              std::vector<std::string>& notes) {
     if (mosaic.vertical().datum == lod::VerticalDatum::other) {
-        const auto own = geoid_of(mosaic.vertical(), options.mosaic.geoid);
+        auto own = geoid_of(mosaic.vertical(), options.mosaic.geoid);
         vertical.geoid_known = own && own->has_value();
-        if (vertical.geoid_known) return lod::UndulationGrid{**own, frame};
+        if (vertical.geoid_known) return own;
         notes.push_back(fmt::format("pictures put {} on EGM96; h and N stay unknown ({})", vertical.name,
                                     own ? "it has no geoid" : own.error().message));
     }
-    const auto geoid = geo::Geoid::egm96();
+    if (mosaic.vertical().datum == lod::VerticalDatum::ellipsoid) return std::optional<geo::Geoid>{};
+    auto egm96 = geo::Geoid::egm96();
+    if (!egm96) return egm96.error();
+    return std::optional(*std::move(egm96));
+}
+
+/// What the scene keeps of it: nodes around the padded grid.
+geo::GeoidNodes nodes_under(const geo::Geoid& geoid, const geo::GridFrame& frame) {
+    geo::GridFrame padded = frame;
+    padded.columns = padded.rows = frame.padded_side();
+    return geoid.nodes_around(padded.extent());
+}
+
+/// Writes the scene's geoid, and makes of what was written the undulations of its posts: a reader's are the
+/// same.
+Result<lod::UndulationGrid> write_geoid(const Mosaic& mosaic, const ImportOptions& options,
+                                        lod::SceneWriter& writer, lod::VerticalReference& vertical,
+                                        std::vector<std::string>& notes) {
+    const auto geoid = geoid_under(mosaic, options, vertical, notes);
     if (!geoid) return geoid.error();
-    return lod::UndulationGrid{*geoid, frame};
+    if (!geoid->has_value()) return lod::UndulationGrid{};
+    const geo::GeoidNodes nodes = nodes_under(**geoid, mosaic.frame());
+    auto kept = geo::Geoid::from_nodes(nodes, "the scene's geoid");
+    if (!kept) return kept.error();
+    if (auto done = writer.write_geoid(nodes); !done) return done.error();
+    return lod::UndulationGrid{std::make_shared<const geo::Geoid>(*std::move(kept)), mosaic.frame()};
 }
 
 /// Heights and checksums are of the same files only if none of these was changed meanwhile.
@@ -205,7 +227,7 @@ Result<void> run(const Mosaic& mosaic, const ImportOptions& options, lod::Height
     info.bounded_errors = options.bounded_errors;
     info.resampling_method = plan.resampling;
     info.sources = plan.sources;
-    const auto undulations = undulations_of(mosaic, options, info.vertical, plan.notes);
+    const auto undulations = write_geoid(mosaic, options, writer, info.vertical, plan.notes);
     if (!undulations) return undulations.error();
     if (auto done =
             measure_posts(*posts, fill, *undulations, writer, !options.despike && options.fill_width == 0,
@@ -236,7 +258,6 @@ Result<void> run(const Mosaic& mosaic, const ImportOptions& options, lod::Height
     }
     if (auto done = add_checksums(mosaic, info); !done) return done;
     if (auto same = check_unchanged(files, states_of(mosaic.all_files())); !same) return same;
-    if (auto done = writer.write_undulations(*undulations); !done) return done;
     if (progress && !progress(0.97)) return interrupted();
     return writer.commit(std::move(info));
 }
@@ -265,7 +286,12 @@ Result<Imported> import_scene(const ImportOptions& options, const ImportPlace& p
     if (auto fits = check_size(plan, options); !fits) return fits.error();
 
     const auto files = states_of(mosaic->all_files());
-    auto type = mosaic->fits_int16() ? lod::HeightType::int16 : lod::HeightType::float32;
+    // That whole numbers do not fit int16 may have been found by the run that is to be resumed.
+    constexpr auto kFloat = lod::HeightType::float32;
+    const bool as_float =
+        !mosaic->fits_int16() ||
+        (place.resume && lod::ScenePlace::can_resume(place.scene, job_text(options, files, kFloat)));
+    auto type = as_float ? kFloat : lod::HeightType::int16;
     bool anew = false;
     for (;;) {
         auto writer = lod::SceneWriter::create(
@@ -276,7 +302,7 @@ Result<Imported> import_scene(const ImportOptions& options, const ImportPlace& p
         const auto done = run(*mosaic, options, type, files, *writer, progress, plan, found);
         if (!done) return found.all_void ? done.error() : stopped(done.error(), *writer);
         if (!found.too_wide) break;
-        type = lod::HeightType::float32;
+        type = kFloat;
     }
     if (progress) progress(1);
     if (anew)

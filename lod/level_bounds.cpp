@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
 
 #include "geo/ellipsoid.hpp"
 #include "lod/soar/diamond.hpp"
@@ -16,24 +20,43 @@ struct UndulationDerivatives {
     double second_m = 0;
 };
 
-UndulationDerivatives undulation_derivatives(const UndulationGrid& undulations) {
-    const Raster<float>& nodes = undulations.nodes();
+UndulationDerivatives undulation_derivatives(const UndulationGrid& undulations, int levels) {
+    const int side = (1 << (levels - undulations.shift())) + 1;
     const double spacing = 1 << undulations.shift();
-    double slope = 0;
-    double bend = 0;
-    double twist = 0;
-    for (int row = 1; row + 1 < nodes.rows(); ++row) {
-        for (int column = 1; column + 1 < nodes.columns(); ++column) {
-            const auto N = [&](int dx, int dy) {
-                return static_cast<double>(nodes.at(column + dx, row + dy));
-            };
-            slope = std::max({slope, std::abs(N(1, 0) - N(0, 0)), std::abs(N(0, 1) - N(0, 0)),
-                              std::abs(N(0, 0) - N(-1, 0)), std::abs(N(0, 0) - N(0, -1))});
-            bend = std::max({bend, std::abs(N(1, 0) - 2 * N(0, 0) + N(-1, 0)),
-                             std::abs(N(0, 1) - 2 * N(0, 0) + N(0, -1))});
-            twist = std::max(twist, std::abs(N(1, 1) - N(1, 0) - N(0, 1) + N(0, 0)));
+    const auto row_of_nodes = [&](int row) {
+        std::vector<double> N(static_cast<std::size_t>(side));
+        for (int column = 0; column < side; ++column)
+            N[static_cast<std::size_t>(column)] =
+                undulations.at(geo::GridPosition{column * spacing, row * spacing});
+        return N;
+    };
+    struct Largest {
+        double slope = 0;
+        double bend = 0;
+        double twist = 0;
+    };
+    const auto of_rows = [&](const tbb::blocked_range<int>& rows, Largest largest) {
+        auto& [slope, bend, twist] = largest;
+        std::vector<double> above = row_of_nodes(rows.begin() - 1);
+        std::vector<double> here = row_of_nodes(rows.begin());
+        for (int row = rows.begin(); row < rows.end(); ++row) {
+            std::vector<double> below = row_of_nodes(row + 1);
+            for (std::size_t i = 1; i + 1 < here.size(); ++i) {
+                slope = std::max({slope, std::abs(here[i + 1] - here[i]), std::abs(below[i] - here[i]),
+                                  std::abs(here[i] - here[i - 1]), std::abs(here[i] - above[i])});
+                bend = std::max({bend, std::abs(here[i + 1] - 2 * here[i] + here[i - 1]),
+                                 std::abs(below[i] - 2 * here[i] + above[i])});
+                twist = std::max(twist, std::abs(below[i + 1] - here[i + 1] - below[i] + here[i]));
+            }
+            above = std::exchange(here, std::move(below));
         }
-    }
+        return largest;
+    };
+    const auto [slope, bend, twist] = tbb::parallel_reduce(
+        tbb::blocked_range<int>(1, std::max(side - 1, 1)), Largest{}, of_rows,
+        [](const Largest& a, const Largest& b) {
+            return Largest{std::max(a.slope, b.slope), std::max(a.bend, b.bend), std::max(a.twist, b.twist)};
+        });
     // Differences between nodes are means of the derivatives between them: half as much again covers their
     // peaks.
     constexpr double kPeak = 1.5;
@@ -87,7 +110,7 @@ std::vector<LevelBound> level_bounds(const geo::GridFrame& frame, const Undulati
     const int levels = frame.levels();
     const EllipsoidDerivatives ellipsoid =
         frame.is_polar() ? polar_derivatives(frame) : geographic_derivatives(frame);
-    const UndulationDerivatives geoid = undulation_derivatives(undulations);
+    const UndulationDerivatives geoid = undulation_derivatives(undulations, levels);
     const double second = ellipsoid.second_m + geoid.second_m;
     const double first = ellipsoid.first_m + geoid.first_m;
 

@@ -37,11 +37,12 @@ Result<Raster<std::uint8_t>> read_sea(const Scene& scene, const Raster<float>& h
 Result<Terrain> Terrain::load(const Scene& scene, ErrorMetric metric) {
     auto heights = scene.read_all_heights();
     if (!heights) return heights.error();
-    const auto metrics = load_metrics(scene, *heights);
+    UndulationGrid undulations = scene.undulations();
+    const auto metrics = load_metrics(scene, *heights, undulations);
     if (!metrics) return metrics.error();
     auto sea = read_sea(scene, *heights);
     if (!sea) return sea.error();
-    return Terrain(scene.info().frame, scene.undulations(), *std::move(heights), *metrics, metric,
+    return Terrain(scene.info().frame, std::move(undulations), *std::move(heights), *metrics, metric,
                    *std::move(sea));
 }
 
@@ -65,7 +66,7 @@ Terrain::Terrain(const geo::GridFrame& frame, UndulationGrid undulations, Raster
 
 std::uint64_t Terrain::memory_bytes() const {
     return posts_.size() * sizeof(Post) + heights_.samples().size() * sizeof(float) + sea_.samples().size() +
-           undulations_.nodes().samples().size() * sizeof(float);
+           undulations_.memory_bytes();
 }
 
 }  // namespace relevo::lod

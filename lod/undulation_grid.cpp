@@ -4,7 +4,6 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <cstdlib>
 #include <utility>
 
 #include <tbb/blocked_range.h>
@@ -14,45 +13,35 @@
 namespace relevo::lod {
 namespace {
 
-/// N at a place of the grid. Rows beyond a pole (there are such in the padding) run on along the opposite
-/// meridian, as the positions of their posts do: N has no kink there.
 double undulation(const geo::Geoid& geoid, const geo::GridFrame& frame, geo::GridPosition at) {
-    geo::LatLon place = frame.lat_lon(at);
-    double lat = geo::wrapped_180(place.lat).value;
-    if (std::abs(lat) > 90) {
-        lat = std::copysign(180, lat) - lat;
-        place.lon = place.lon + geo::Degrees{180};
-    }
-    return geoid.undulation({geo::Degrees{lat}, place.lon}).m;
+    return geoid.undulation(frame.lat_lon(at)).m;
 }
 
-/// Nodes are multiples of 2^-15 m: the error, 0.015 mm, is a fraction of what is allowed, and the float's
-/// noise below it would be half of the file.
-float rounded(double undulation) {
-    return static_cast<float>(std::round(undulation * 32768) / 32768);
+int nodes_a_side(const geo::GridFrame& frame, int shift) {
+    return (1 << (frame.levels() - shift)) + 1;
 }
 
 Raster<float> nodes_of(const geo::Geoid& geoid, const geo::GridFrame& frame, int shift) {
-    const int side = (1 << (frame.levels() - shift)) + 1;
+    const int side = nodes_a_side(frame, shift);
     Raster<float> nodes(side, side);
     tbb::parallel_for(tbb::blocked_range<int>(0, side), [&](const tbb::blocked_range<int>& rows) {
         for (int row = rows.begin(); row < rows.end(); ++row) {
             for (int column = 0; column < side; ++column) {
                 const geo::GridPosition place{std::ldexp(column, shift), std::ldexp(row, shift)};
-                nodes.at(column, row) = rounded(undulation(geoid, frame, place));
+                nodes.at(column, row) = static_cast<float>(undulation(geoid, frame, place));
             }
         }
     });
     return nodes;
 }
 
-/// Largest difference from the geoid over the data, at the middle of each cell of nodes and of its north and
-/// west side: there a bilinear function is farthest from a smooth one.
+/// Largest difference of a bilinear grid from the geoid over the data, at the middle of each cell of nodes
+/// and of its north and west side: there a bilinear function is farthest from a smooth one.
 double measured_error(const UndulationGrid& grid, const geo::Geoid& geoid, const geo::GridFrame& frame) {
     const double step = std::ldexp(1, grid.shift());
-    const int cell_rows = std::min(static_cast<int>((frame.rows - 1) / step) + 1, grid.nodes().rows() - 1);
-    const int cell_columns =
-        std::min(static_cast<int>((frame.columns - 1) / step) + 1, grid.nodes().columns() - 1);
+    const int cells = nodes_a_side(frame, grid.shift()) - 1;
+    const int cell_rows = std::min(static_cast<int>((frame.rows - 1) / step) + 1, cells);
+    const int cell_columns = std::min(static_cast<int>((frame.columns - 1) / step) + 1, cells);
     const std::array<geo::GridPosition, 3> middles{{{0.5, 0.5}, {0.5, 0}, {0, 0.5}}};
     const auto worst_of_rows = [&](const tbb::blocked_range<int>& rows, double worst) {
         for (int row = rows.begin(); row < rows.end(); ++row) {
@@ -82,19 +71,21 @@ int coarsest_shift(const geo::GridFrame& frame) {
 
 }  // namespace
 
-UndulationGrid::UndulationGrid(const geo::Geoid& geoid, const geo::GridFrame& frame) {
+UndulationGrid::UndulationGrid(std::shared_ptr<const geo::Geoid> geoid, const geo::GridFrame& frame)
+    : geoid_(std::move(geoid)), frame_(frame) {
+    if (!geoid_) return;
+    const int coarsest = coarsest_shift(frame);
     // A tenth is kept for the places that are not measured.
     constexpr double kLimit = 0.9 * kMaxErrorM;
-    for (shift_ = coarsest_shift(frame);; --shift_) {
-        nodes_ = nodes_of(geoid, frame, shift_);
+    for (shift_ = coarsest; shift_ >= 0; --shift_) {
+        const int side = nodes_a_side(frame, shift_);
+        if (static_cast<long long>(side) * side > kMostNodes) break;
+        nodes_ = nodes_of(*geoid_, frame, shift_);
         cells_per_post_ = std::ldexp(1, -shift_);
-        if (shift_ == 0 || measured_error(*this, geoid, frame) <= kLimit) return;
+        if (measured_error(*this, *geoid_, frame) <= kLimit) return;
     }
-}
-
-UndulationGrid::UndulationGrid(Raster<float> nodes, int shift)
-    : nodes_(std::move(nodes)), shift_(shift), cells_per_post_(std::ldexp(1, -shift)) {
-    assert(nodes_.columns() >= 2 && nodes_.rows() >= 2 && shift >= 0);
+    nodes_ = {};
+    shift_ = coarsest;
 }
 
 double UndulationGrid::at(int column, int row) const {
@@ -102,7 +93,7 @@ double UndulationGrid::at(int column, int row) const {
 }
 
 double UndulationGrid::at(geo::GridPosition place) const {
-    if (nodes_.columns() == 0) return 0;
+    if (nodes_.columns() == 0) return geoid_ ? undulation(*geoid_, frame_, place) : 0;
     const double x = place.column * cells_per_post_;
     const double y = place.row * cells_per_post_;
     const int column = std::clamp(static_cast<int>(x), 0, nodes_.columns() - 2);

@@ -17,8 +17,6 @@ class EyeHeight {
     static Result<EyeHeight> create(lod::VerticalDatum datum);
 
     geo::Undulation undulation(geo::LatLon place) const;
-    /// Absent for heights above the ellipsoid.
-    const geo::Geoid* geoid() const { return geoid_ ? &*geoid_ : nullptr; }
 
   private:
     std::optional<geo::Geoid> geoid_;

@@ -132,7 +132,7 @@ class Flight {
             if (!hit) return std::optional<lod::PointMeasurement>{};
             geo::LatLon place = terrain_.frame().lat_lon(hit->place);
             place.lon = geo::wrapped_180(place.lon);  // a grid runs on across the antimeridian
-            auto point = lod::measure_point(sampler_, heights_.geoid(), place);
+            auto point = lod::measure_point(sampler_, place);
             if (!point) return point.error();
             return std::optional(*point);
         };

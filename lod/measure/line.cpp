@@ -105,11 +105,8 @@ double ground_length(const GridPath& path, const Leg& leg, const Scene& scene, d
     // matter where in the step the surface is steep: 10 m of height are 1.6e-6 of k.
     constexpr double kLongestStep = 5000;
     constexpr double kHighestStep = 10;
-    const geo::GridFrame& frame = scene.info().frame;
-    const auto undulation = [&](const geo::GridPosition& place) {
-        return scene.undulations().at(
-            geo::GridPosition{std::clamp(place.column, 0.0, static_cast<double>(frame.columns - 1)),
-                              std::clamp(place.row, 0.0, static_cast<double>(frame.rows - 1))});
+    const auto undulation = [&](geo::LatLon place) {
+        return scene.geoid() == nullptr ? 0 : scene.geoid()->undulation(place).m;
     };
     const double rise = leg.height(path, end) - leg.height(path, begin);
     const int steps =
@@ -120,8 +117,8 @@ double ground_length(const GridPath& path, const Leg& leg, const Scene& scene, d
         const double s1 = begin + (end - begin) * (i + 1) / steps;
         const auto point0 = path.at(s0, leg.turn);
         const auto point1 = path.at(s1, leg.turn);
-        const double N0 = undulation(point0.grid);
-        const double N1 = undulation(point1.grid);
+        const double N0 = undulation(point0.place);
+        const double N1 = undulation(point1.place);
         const double h0 = leg.cell->height(point0.grid) + N0;
         const double h1 = leg.cell->height(point1.grid) + N1;
         const double p0 = leg.slope(path, s0) + (N1 - N0) / (s1 - s0);

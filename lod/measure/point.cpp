@@ -6,38 +6,29 @@
 namespace relevo::lod {
 namespace {
 
-/// N of the scene's datum; nothing where that is unknown. EGM96 comes from its model, another datum's from
-/// the grid that the scene keeps.
-std::optional<geo::Undulation> undulation(const Scene& scene, const geo::Geoid* geoid, geo::LatLon place,
-                                          geo::GridPosition position, bool inside) {
+/// N of the scene's datum; nothing where that is unknown.
+std::optional<geo::Undulation> undulation(const Scene& scene, geo::LatLon place) {
     const VerticalReference& vertical = scene.info().vertical;
-    switch (vertical.datum) {
-        case VerticalDatum::ellipsoid:
-            return geo::Undulation{0};
-        case VerticalDatum::egm96:
-            if (geoid != nullptr) return geoid->undulation(place);
-            break;
-        case VerticalDatum::other:
-            if (vertical.geoid_known && inside) return geo::Undulation{scene.undulations().at(position)};
-            break;
-    }
-    return {};
+    if (vertical.datum == VerticalDatum::ellipsoid) return geo::Undulation{0};
+    const bool known = vertical.datum == VerticalDatum::egm96 || vertical.geoid_known;
+    if (!known || scene.geoid() == nullptr || !scene.geoid()->covers(place)) return {};
+    return scene.geoid()->undulation(place);
 }
 
 }  // namespace
 
-Result<PointMeasurement> measure_point(HeightSampler& sampler, const geo::Geoid* geoid, geo::LatLon place) {
+Result<PointMeasurement> measure_point(HeightSampler& sampler, geo::LatLon place) {
     const SceneInfo& info = sampler.scene().info();
     const geo::GridPosition position = info.frame.grid_position(place);
     PointMeasurement point;
     point.place = place;
     const bool inside = sampler.inside(position);
-    point.N = undulation(sampler.scene(), geoid, place, position, inside);
     const auto spacing =
         info.frame.spacing({std::clamp(position.column, 0.0, static_cast<double>(info.frame.columns - 1)),
                             std::clamp(position.row, 0.0, static_cast<double>(info.frame.rows - 1))});
     point.resolution_m = std::max(spacing.column_m, spacing.row_m);
     if (!inside) return point;
+    point.N = undulation(sampler.scene(), place);
 
     const auto H = sampler.height(position);
     if (!H) return H.error();

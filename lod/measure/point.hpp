@@ -3,7 +3,6 @@
 #include <optional>
 #include <string>
 
-#include "geo/geoid.hpp"
 #include "geo/position.hpp"
 #include "lod/measure/height_sampler.hpp"
 
@@ -17,16 +16,17 @@ struct PointMeasurement {
     PointClass kind = PointClass::outside;
     std::optional<geo::OrthometricHeight> H;  ///< above the scene's vertical datum
     std::optional<geo::EllipsoidalHeight> h;  ///< H + N
-    std::optional<geo::Undulation> N;  ///< of the datum's surface: 0 where H is above the ellipsoid itself
-    double resolution_m = 0;           ///< post spacing there, the larger of both axes
-    bool filled = false;               ///< H is made of a post that was interpolated over a void
-    bool modelled = false;             ///< or of one of a sea bed that was made up
+    /// Of the datum's surface: 0 where H is above the ellipsoid itself. Absent where the datum's geoid is not
+    /// in the scene, and outside it.
+    std::optional<geo::Undulation> N;
+    double resolution_m = 0;    ///< post spacing there, the larger of both axes
+    bool filled = false;        ///< H is made of a post that was interpolated over a void
+    bool modelled = false;      ///< or of one of a sea bed that was made up
     std::optional<int> source;  ///< of the nearest post, in SceneInfo::sources; none where not recorded
 };
 
 /// Reads a place from the full data: bilinear between posts, the post itself within 1e-6 of one.
 /// The class is that of the nearest post; where there is no height, void.
-/// \param geoid  for N; absent when the scene's datum has none here
-Result<PointMeasurement> measure_point(HeightSampler& sampler, const geo::Geoid* geoid, geo::LatLon place);
+Result<PointMeasurement> measure_point(HeightSampler& sampler, geo::LatLon place);
 
 }  // namespace relevo::lod

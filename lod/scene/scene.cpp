@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include "lod/scene/block_file.hpp"
 #include "lod/scene/block_grid.hpp"
 #include "lod/scene/folder.hpp"
+#include "lod/scene/geoid_block.hpp"
 #include "lod/scene/parallel_blocks.hpp"
 #include "lod/scene/post_block.hpp"
 #include "lod/scene/scene_files.hpp"
@@ -31,28 +31,6 @@ const BlockInfo* find_block(const std::vector<BlockInfo>& blocks, int column, in
 
 Error damaged(const std::filesystem::path& path, const std::string& what) {
     return {ErrorKind::damaged, fmt::format("{} is damaged: {}", path.string(), what)};
-}
-
-/// The nodes of a stored grid lie every 2^shift posts, and their number says which shift that is.
-std::optional<int> shift_of(BlockShape nodes, int levels) {
-    for (int shift = 0; shift <= levels; ++shift) {
-        if (nodes.columns == (1 << (levels - shift)) + 1 && nodes.rows == nodes.columns) return shift;
-    }
-    return std::nullopt;
-}
-
-Result<UndulationGrid> decode_undulations(std::span<const std::byte> bytes, int levels,
-                                          const std::filesystem::path& path) {
-    const std::string name = (path / kUndulationFile).string();
-    const Result<BlockShape> shape = block_shape(bytes, name);
-    if (!shape) return shape.error();
-    const std::optional<int> shift = shift_of(*shape, levels);
-    if (!shift) return damaged(path, fmt::format("{} has the wrong size", kUndulationFile));
-    Result<std::vector<float>> nodes = decode_block<float>(bytes, *shape, name);
-    if (!nodes) return nodes.error();
-    Raster<float> raster(shape->columns, shape->rows);
-    raster.samples() = std::move(*nodes);
-    return UndulationGrid(std::move(raster), *shift);
 }
 
 /// The folder, marked as being read. A writer that replaces the scene between the two steps makes us begin
@@ -91,13 +69,14 @@ Result<Scene> Scene::open(const std::filesystem::path& path) {
         return Error{info.error().kind, what};
     }
     scene.info_ = std::move(*info);
-    if (scene.info_.undulation.file.empty()) return scene;
+    const GeoidInfo& stored = scene.info_.geoid;
+    if (stored.file.file.empty()) return scene;
 
-    const Result<std::vector<std::byte>> nodes = scene.read_block(scene.info_.undulation);
+    const auto nodes = scene.read_block(stored.file);
     if (!nodes) return nodes.error();
-    Result<UndulationGrid> undulations = decode_undulations(*nodes, scene.info_.frame.levels(), path);
-    if (!undulations) return undulations.error();
-    scene.undulations_ = std::move(*undulations);
+    auto geoid = decode_geoid(*nodes, stored, (path / kGeoidFile).string());
+    if (!geoid) return geoid.error();
+    scene.geoid_ = std::make_shared<const geo::Geoid>(*std::move(geoid));
     return scene;
 }
 
@@ -185,7 +164,7 @@ std::vector<std::string> Scene::verify() const {
     for (const auto* layer : {&info_.heights, &info_.marks, &info_.metrics, &info_.lattice}) {
         for (const BlockInfo& block : *layer) blocks.push_back(&block);
     }
-    if (!info_.undulation.file.empty()) blocks.push_back(&info_.undulation);
+    if (!info_.geoid.file.file.empty()) blocks.push_back(&info_.geoid.file);
 
     std::vector<std::string> messages(blocks.size() + 1);
     // Failures are kept one by one here: every damaged block is to be named, not the first alone.

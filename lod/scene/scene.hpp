@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "geo/geoid.hpp"
 #include "geo/result.hpp"
 #include "lod/scene/post_mark.hpp"
 #include "lod/scene/raster.hpp"
@@ -28,7 +29,12 @@ class Scene {
 
     const SceneInfo& info() const { return info_; }
     const std::filesystem::path& path() const { return path_; }
-    const UndulationGrid& undulations() const { return undulations_; }
+    /// The geoid of the scene's heights, over the scene and its padding; null where they are above the
+    /// ellipsoid.
+    const geo::Geoid* geoid() const { return geoid_.get(); }
+
+    /// N at the posts, made anew at each call: for many posts.
+    UndulationGrid undulations() const { return {geoid_, info_.frame}; }
 
     /// Heights H of one block, metres, row by row, void = NaN. Blocks at the right and bottom edge are
     /// smaller. \pre the block is one of the scene's
@@ -62,7 +68,7 @@ class Scene {
     std::filesystem::path path_;
     std::shared_ptr<const Folder> folder_;
     SceneInfo info_;
-    UndulationGrid undulations_;
+    std::shared_ptr<const geo::Geoid> geoid_;
 };
 
 }  // namespace relevo::lod

@@ -14,7 +14,7 @@ inline constexpr const char* kHeightsFolder = "heights";
 inline constexpr const char* kMarksFolder = "marks";
 inline constexpr const char* kMetricsFolder = "metrics";
 inline constexpr const char* kLatticeFolder = "lattice";
-inline constexpr const char* kUndulationFile = "undulation.tif";
+inline constexpr const char* kGeoidFile = "geoid.tif";
 
 /// "heights/r0000-c0001.tif": the only name that a block may have.
 std::string block_file_name(const char* folder, int block_column, int block_row);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "geo/geoid_nodes.hpp"
 #include "lod/scene/block_grid.hpp"
 #include "lod/scene/json_fields.hpp"
 #include "lod/scene/post_mark.hpp"
@@ -117,6 +118,33 @@ BlockInfo block_from(JsonFields& fields, const std::string& file) {
     block.sha256 = fields.text("sha256");
     block.bytes = fields.count("bytes", std::uint64_t{1} << 40);
     return block;
+}
+
+nlohmann::json to_json(const GeoidInfo& geoid) {
+    if (geoid.file.file.empty()) return {};
+    nlohmann::json json = file_to_json(geoid.file);
+    json.update({{"south", geoid.south},
+                 {"west", geoid.west},
+                 {"step_lat", geoid.step_lat},
+                 {"step_lon", geoid.step_lon},
+                 {"rows", geoid.rows},
+                 {"columns", geoid.columns}});
+    return json;
+}
+
+GeoidInfo geoid_from(JsonFields fields) {
+    GeoidInfo geoid;
+    geoid.file = block_from(fields, kGeoidFile);
+    geoid.south = fields.number("south", -90, 90);
+    geoid.west = fields.number("west", -720, 720);
+    geoid.step_lat = fields.number("step_lat", 0, 180);
+    geoid.step_lon = fields.number("step_lon", 0, 180);
+    constexpr int kMost = 100'000;
+    geoid.rows = fields.integer("rows", 1, kMost);
+    geoid.columns = fields.integer("columns", 1, kMost);
+    if (static_cast<long long>(geoid.rows) * geoid.columns > geo::GeoidNodes::kMost)
+        fields.wrong("rows", "are too many");
+    return geoid;
 }
 
 std::vector<BlockInfo> blocks_from(JsonFields& scene, const char* key, const BlockGrid& grid) {
@@ -239,10 +267,7 @@ void read_files(JsonFields& fields, SceneInfo& info) {
     const int side = info.frame.padded_side();
     info.metrics = blocks_from(fields, kMetricsFolder, BlockGrid::of_metrics(side));
     info.lattice = blocks_from(fields, kLatticeFolder, BlockGrid::of_lattice(side));
-    if (!fields.is_null("undulation")) {
-        JsonFields undulation = fields.object("undulation");
-        info.undulation = block_from(undulation, kUndulationFile);
-    }
+    if (!fields.is_null("geoid")) info.geoid = geoid_from(fields.object("geoid"));
     if (!voids_fit(info, heights)) fields.wrong("heights", "lacks blocks that hold valid posts");
 }
 
@@ -250,7 +275,7 @@ void read_files(JsonFields& fields, SceneInfo& info) {
 
 std::uint64_t SceneInfo::bytes() const {
     const auto add = [](std::uint64_t sum, const BlockInfo& block) { return sum + block.bytes; };
-    std::uint64_t sum = undulation.bytes;
+    std::uint64_t sum = geoid.file.bytes;
     for (const auto* layer : {&heights, &marks, &metrics, &lattice})
         sum = std::accumulate(layer->begin(), layer->end(), sum, add);
     return sum;
@@ -325,7 +350,7 @@ nlohmann::json to_json(const SceneInfo& info) {
             {"bounded_errors", info.bounded_errors},
             {"metrics", to_json(info.metrics)},
             {"lattice", to_json(info.lattice)},
-            {"undulation", info.undulation.file.empty() ? nlohmann::json() : file_to_json(info.undulation)}};
+            {"geoid", to_json(info.geoid)}};
 }
 
 Result<SceneInfo> scene_info_from_json(const nlohmann::json& json) {

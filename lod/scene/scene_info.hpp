@@ -24,7 +24,7 @@ struct VerticalReference {
     VerticalDatum datum = VerticalDatum::egm96;
     std::string name = "EGM96";  ///< for people
     bool assumed = true;         ///< the source did not say
-    bool geoid_known = false;    ///< of another datum: the scene's undulations are its own, not EGM96's
+    bool geoid_known = false;    ///< of another datum: the scene's geoid is its own, not EGM96
 };
 
 /// How heights are stored in the blocks.
@@ -85,6 +85,17 @@ struct BlockInfo {
     std::uint64_t bytes = 0;
 };
 
+/// The file of the geoid's nodes around the scene, on a grid of latitude and longitude.
+struct GeoidInfo {
+    BlockInfo file;    ///< of no name: heights are above the ellipsoid
+    double south = 0;  ///< of the first node, degrees
+    double west = 0;
+    double step_lat = 0;
+    double step_lon = 0;
+    int rows = 0;
+    int columns = 0;
+};
+
 /// What scene.json says.
 struct SceneInfo {
     static constexpr int kFormatVersion = 2;
@@ -121,7 +132,7 @@ struct SceneInfo {
     bool bounded_errors = true;  ///< else the metrics hold the incremental error alone
     std::vector<BlockInfo> metrics;
     std::vector<BlockInfo> lattice;
-    BlockInfo undulation;  ///< the one file of the coarse geoid grid
+    GeoidInfo geoid;
 
     std::uint64_t bytes() const;  ///< of all data files
 };

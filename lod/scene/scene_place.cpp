@@ -37,9 +37,10 @@ fs::path lock_file(const fs::path& target) {
 /// Nothing of somebody else's is ever deleted: a scene has scene.json, and nothing but a scene's files and
 /// what GDAL and QGIS leave beside a raster.
 bool holds_only_a_scene(const fs::path& folder) {
-    constexpr std::array<std::string_view, 7> kNames{kSceneFile,     kMosaicFile,    kHeightsFolder,
-                                                     kMarksFolder,   kMetricsFolder, kLatticeFolder,
-                                                     kUndulationFile};
+    constexpr const char* kOfFormat1 = "undulation.tif";
+    constexpr std::array<std::string_view, 8> kNames{kSceneFile,   kMosaicFile,    kHeightsFolder,
+                                                     kMarksFolder, kMetricsFolder, kLatticeFolder,
+                                                     kGeoidFile,   kOfFormat1};
     std::error_code error;
     if (!fs::is_regular_file(folder / kSceneFile, error)) return false;
     for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
@@ -82,6 +83,16 @@ bool has_name(const Descriptor& lock, const fs::path& file) {
            held.st_ino == named.st_ino && held.st_dev == named.st_dev;
 }
 
+/// A link to a scene: the scene is replaced, not the link.
+Result<fs::path> target_of(const fs::path& path) {
+    std::error_code error;
+    fs::path target = fs::weakly_canonical(path, error);
+    if (!target.has_filename()) target = target.parent_path();
+    if (error || !target.has_filename())
+        return Error{ErrorKind::usage, fmt::format("'{}' is not a place for a scene", path.string())};
+    return target;
+}
+
 Result<Descriptor> take_lock(const fs::path& target) {
     const fs::path file = lock_file(target);
     for (;;) {
@@ -105,7 +116,7 @@ void remove_unless_read(const fs::path& path) {
     fs::remove_all(path, ignored);
 }
 
-/// \pre the place is locked: then no folder of this kind belongs to a living writer
+/// Where the place is locked, no folder of this kind belongs to a living writer.
 std::vector<fs::path> left_behind(const fs::path& target) {
     const std::string prefix = hidden_name(target, "partial-");
     std::error_code error;
@@ -177,14 +188,16 @@ ScenePlace::~ScenePlace() {
     fs::remove(lock_file(target_), ignored);  // while it is locked: see has_name
 }
 
+bool ScenePlace::can_resume(const fs::path& path, const std::string& job) {
+    const Result<fs::path> target = target_of(path);
+    return target && begun(left_behind(*target), job);
+}
+
 Result<ScenePlace> ScenePlace::claim(const fs::path& path, const SceneClaim& claim) {
+    const Result<fs::path> named = target_of(path);
+    if (!named) return named.error();
+    fs::path target = *named;
     std::error_code error;
-    fs::path target =
-        fs::weakly_canonical(path, error);  // a link to a scene: the scene is replaced, not the link
-    if (!target.has_filename()) target = target.parent_path();
-    if (error || !target.has_filename()) {
-        return Error{ErrorKind::usage, fmt::format("'{}' is not a place for a scene", path.string())};
-    }
     if (!fs::is_directory(target.parent_path(), error)) {
         return Error{ErrorKind::usage,
                      fmt::format("there is no folder {} to put the scene in", target.parent_path().string())};

@@ -23,6 +23,8 @@ class ScenePlace {
     /// another writer, or in a folder that cannot be written. Sweeps what writers that were killed have left
     /// behind, unless it is to be resumed.
     static Result<ScenePlace> claim(const std::filesystem::path& path, const SceneClaim& claim);
+    /// Has a writer with this job left something behind?
+    static bool can_resume(const std::filesystem::path& path, const std::string& job);
     ScenePlace(ScenePlace&& other) noexcept;
     ScenePlace& operator=(ScenePlace&& other) = delete;
     ~ScenePlace();

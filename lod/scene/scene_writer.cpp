@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "lod/scene/block_file.hpp"
 #include "lod/scene/folder.hpp"
+#include "lod/scene/geoid_block.hpp"
 #include "lod/scene/scene_files.hpp"
 #include "lod/scene/sha256.hpp"
 
@@ -15,7 +15,7 @@ namespace relevo::lod {
 
 struct SceneWriter::State {
     ScenePlace place;
-    BlockInfo undulation;
+    GeoidInfo geoid;
     mutable std::vector<std::string> draft_layers;
 
     const Folder& folder() const { return place.partial(); }
@@ -73,15 +73,13 @@ Result<DraftPosts> SceneWriter::draft(const std::string& name, const geo::GridFr
     return DraftPosts(std::move(*heights), std::move(*marks), frame, coding, cache_bytes);
 }
 
-Result<void> SceneWriter::write_undulations(const UndulationGrid& undulations) {
-    const Raster<float>& nodes = undulations.nodes();
-    if (nodes.columns() == 0) return {};  // heights above the ellipsoid
-    const auto bytes = encode_block<float>(nodes.samples(), {nodes.columns(), nodes.rows()}, std::nullopt);
+Result<void> SceneWriter::write_geoid(const geo::GeoidNodes& nodes) {
+    const auto bytes = encode_geoid(nodes);
     if (!bytes) return bytes.error();
-    if (auto done = state_->folder().write(kUndulationFile, *bytes); !done) return done;
-    state_->undulation.file = kUndulationFile;
-    state_->undulation.sha256 = sha256_hex(*bytes);
-    state_->undulation.bytes = bytes->size();
+    if (auto done = state_->folder().write(kGeoidFile, *bytes); !done) return done;
+    const BlockInfo file{0, 0, kGeoidFile, sha256_hex(*bytes), bytes->size()};
+    state_->geoid = {file,           nodes.south, nodes.west,   nodes.step_lat,
+                     nodes.step_lon, nodes.rows,  nodes.columns};
     return {};
 }
 
@@ -98,7 +96,7 @@ Result<void> SceneWriter::commit(SceneInfo info) {
         *blocks = store->blocks();
         stores.push_back(std::move(*store));
     }
-    info.undulation = state_->undulation;
+    info.geoid = state_->geoid;
 
     const std::string text = scene_text(info);
     if (const auto readable = scene_info_from_text(text); !readable) {

@@ -4,11 +4,11 @@
 #include <memory>
 #include <string>
 
+#include "geo/geoid_nodes.hpp"
 #include "geo/result.hpp"
 #include "lod/scene/draft_posts.hpp"
 #include "lod/scene/scene_info.hpp"
 #include "lod/scene/scene_place.hpp"
-#include "lod/undulation_grid.hpp"
 
 namespace relevo::lod {
 
@@ -42,7 +42,8 @@ class SceneWriter {
     /// Another layer: kMetricsFolder or kLatticeFolder.
     Result<BlockStore> layer(const char* name) const;
 
-    Result<void> write_undulations(const UndulationGrid& undulations);
+    /// The geoid around the scene; none for heights above the ellipsoid.
+    Result<void> write_geoid(const geo::GeoidNodes& nodes);
 
     /// Writes scene.json (block lists are filled in here, from the layers' journals), syncs everything to
     /// disk, and puts the scene in its place.

@@ -63,7 +63,8 @@ MetricRasters stored_part(const MetricRasters& tile) {
     return part;
 }
 
-Result<MetricRasters> load_metrics(const Scene& scene, const Raster<float>& heights) {
+Result<MetricRasters> load_metrics(const Scene& scene, const Raster<float>& heights,
+                                   const UndulationGrid& undulations) {
     const geo::GridFrame& frame = scene.info().frame;
     const auto lattice = scene.read_lattice();
     if (!lattice) return lattice.error();
@@ -72,7 +73,7 @@ Result<MetricRasters> load_metrics(const Scene& scene, const Raster<float>& heig
     MeshHeights fill(frame);
     fill.add(0, 0, heights);
     fill.finish();
-    const MeshGround ground{frame, positions, scene.undulations(), fill};
+    const MeshGround ground{frame, positions, undulations, fill};
     const int side = frame.padded_side();
     const BlockGrid grid = BlockGrid::of_metrics(side);
     MetricRasters all = empty_metrics(side, side);

@@ -10,7 +10,9 @@ namespace relevo::lod {
 MetricRasters stored_part(const MetricRasters& tile);
 
 /// The metrics of a scene's whole padded grid, the last two levels computed again.
-/// \param heights  the scene's, void = NaN
-Result<MetricRasters> load_metrics(const Scene& scene, const Raster<float>& heights);
+/// \param heights      the scene's, void = NaN
+/// \param undulations  the scene's
+Result<MetricRasters> load_metrics(const Scene& scene, const Raster<float>& heights,
+                                   const UndulationGrid& undulations);
 
 }  // namespace relevo::lod

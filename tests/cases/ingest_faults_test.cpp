@@ -130,13 +130,15 @@ class IngestFaults : public testing::Test {
     }
 
     /// Starts an import over the old scene and stops it when it has begun to write.
-    std::unique_ptr<Running> stopped_in_the_middle(const fs::path& place) const {
+    /// \param job  what must be in its note of what it makes
+    std::unique_ptr<Running> stopped_in_the_middle(const fs::path& place, const std::string& job = "") const {
         put_old_scene(place);
         auto import = std::make_unique<Running>(command(place, {"--overwrite"}, file_));
         const auto begun = [&] {
             for (const auto& entry : fs::directory_iterator(place.parent_path()))
                 if (entry.path().filename().string().starts_with(".a.relevo.partial-") &&
-                    fs::exists(entry.path() / "raw-heights.journal"))
+                    fs::exists(entry.path() / "raw-heights.journal") &&
+                    test::says(test::contents(entry.path() / "job"), {job.c_str()}))
                     return true;
             return false;
         };
@@ -218,6 +220,26 @@ TEST_F(IngestFaults, InterruptedItSaysHowToGoOn) {
         EXPECT_TRUE(import_to(place_, {"--overwrite", "--resume"}, file_) == good_);
         expect_alone(place_);
     }
+}
+
+// A post at the end shows that whole numbers do not fit int16: the import begins anew, once.
+TEST_F(IngestFaults, WiderThanInt16IsFoundOnce) {
+    SyntheticRaster raster;
+    raster.type = GDT_Int32;
+    raster.columns = raster.rows = 1200;
+    raster.geotransform = {10, 0.001, 0, 50, 0, -0.001};
+    raster.value = [](int c, int r) { return c == 1199 && r == 1199 ? 40000.0 : (c * 31 + r * 17) % 1000; };
+    file_ = raster.write(sources_ / "wide.tif");
+    const auto good = import_to(sources_ / "wide.relevo", {}, file_);
+    fs::create_directories(place_.parent_path());
+    const auto import = stopped_in_the_middle(place_, "float32");
+    import->signal(SIGINT);
+    import->signal(SIGCONT);
+    ASSERT_EQ(import->wait(), 1) << import->messages();
+    Running again(command(place_, {"--overwrite", "--resume"}, file_));
+    EXPECT_EQ(again.wait(), 0);
+    EXPECT_FALSE(test::says(again.messages(), {"begun anew"})) << again.messages();
+    EXPECT_TRUE(test::all_files(place_) == good);
 }
 
 TEST_F(IngestFaults, ASecondWriterIsRefused) {

@@ -405,6 +405,62 @@ TEST_F(Egm96, ABandRoundTheEarthHasNoSeam) {
     }
 }
 
+// What a scene keeps of a geoid.
+TEST_F(Egm96, ItsNodesAroundAnAreaMakeTheSameGeoidThere) {
+    const std::vector<GridFrame::Extent> areas{
+        {86, 27, 88, 29},     {179.5, -17, 181.5, -15}, {-180.2, 60, -179.8, 60.3},
+        {10, 84.9, 40, 85.1}, {-180, -90, 180, 90},     {-180, 75, 180, 90},
+        {100, -90, 130, -80}, {0.01, 0.01, 0.02, 0.02}, {-180, -30, 180.5, -20},
+        {-180, 40, 145, 41},
+    };
+    std::mt19937 random(3);
+    for (const auto& area : areas) {
+        const GeoidNodes around = geoid->nodes_around(area);
+        SCOPED_TRACE(testing::Message()
+                     << area.west << ' ' << area.south << ": " << around.columns << " x " << around.rows);
+        const auto cut = Geoid::from_nodes(around, "cut");
+        ASSERT_TRUE(cut) << cut.error().message;
+        std::uniform_real_distribution<double> lat(area.south, area.north);
+        std::uniform_real_distribution<double> lon(area.west, area.east);
+        double worst = 0;
+        for (int i = 0; i < 2000; ++i) {
+            const LatLon place = at(lat(random), lon(random));
+            ASSERT_TRUE(cut->covers(place));
+            worst = std::max(worst, std::abs(cut->undulation(place).m - geoid->undulation(place).m));
+        }
+        EXPECT_LE(worst, 1e-9);
+    }
+    const auto small = geoid->nodes_around({86, 27, 87, 28});
+    EXPECT_LE(small.rows, 50);
+    EXPECT_LE(small.columns, 50);
+}
+
+TEST(RegionalGeoid, NodesAroundAnAreaKeepHolesAndBorders) {
+    GeoidNodes nodes{-45, 170, 0.1, 0.2, 60, 50, {}};
+    for (int row = 0; row < nodes.rows; ++row)
+        for (int column = 0; column < nodes.columns; ++column)
+            nodes.undulations.push_back(
+                row == 30 && column == 25
+                    ? std::nan("")
+                    : static_cast<double>(static_cast<float>(10 * std::sin(row / 4.0) + column * 0.3)));
+    const auto whole = Geoid::from_nodes(nodes, "whole");
+    ASSERT_TRUE(whole);
+    const std::vector<GridFrame::Extent> areas{
+        {174, -43, 176, -41}, {169, -46, 170.5, -44.5}, {-181, -40, -180.3, -38}, {100, 0, 101, 1}};
+    for (const auto& area : areas) {
+        const auto cut = Geoid::from_nodes(whole->nodes_around(area), "cut");
+        ASSERT_TRUE(cut) << cut.error().message;
+        for (double lat = area.south; lat <= area.north; lat += 0.03) {
+            for (double lon = area.west; lon <= area.east; lon += 0.03) {
+                EXPECT_EQ(cut->covers(at(lat, lon)), whole->covers(at(lat, lon))) << lat << ' ' << lon;
+                if (whole->covers(at(lat, lon))) {
+                    EXPECT_NEAR(cut->undulation(at(lat, lon)).m, whole->undulation(at(lat, lon)).m, 1e-9);
+                }
+            }
+        }
+    }
+}
+
 TEST(RegionalGeoid, HolesAreNotCovered) {
     const auto smooth = [](double lat, double lon) { return 40 + std::sin(lat) + std::cos(lon); };
     auto nodes = region(46, 10, 0.1, 41, 41, smooth);

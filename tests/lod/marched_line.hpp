@@ -53,10 +53,8 @@ class March {
     Step at(double distance) const {
         const geo::LatLon place = path_.at(distance);
         const auto H = static_cast<double>(scene_.brute_height(place));
-        auto grid = scene_.frame().grid_position(place);
-        grid.column = std::clamp(grid.column, 0.0, scene_.frame().columns - 1.0);
-        grid.row = std::clamp(grid.row, 0.0, scene_.frame().rows - 1.0);
-        const double h = H + scene_.scene().undulations().at(grid);
+        const geo::Geoid* const geoid = scene_.scene().geoid();
+        const double h = H + (geoid == nullptr ? 0 : geoid->undulation(place).m);
         return {distance, H, geo::to_ecef({place.lat, place.lon, geo::EllipsoidalHeight{h}})};
     }
 

@@ -51,13 +51,9 @@ TEST(MeasureLine, EqualsMarchingOnRandomShortLines) {
 
 TEST(MeasureLine, EqualsMarchingWithAGeoid) {
     const auto frame = grid(10, 50, 0.01, 33, 33);
-    Raster<float> nodes(33, 33);  // made up, steep: 0.5 m a post
-    for (int row = 0; row < 33; ++row)
-        for (int column = 0; column < 33; ++column)
-            nodes.at(column, row) = 40.0F + 0.5F * static_cast<float>(column);
     MeasuredScene scene(
         frame, [](int column, int row) { return 30.0 * column + 20 * row; }, VerticalDatum::egm96,
-        UndulationGrid(nodes, 0));
+        test::sloping_geoid(frame, 16, 0));  // steep: 0.5 m a post
     expect_right(scene, {frame.lat_lon({1.5, 2.5}), frame.lat_lon({30.5, 28.5})}, 10000, 1e-8, 1e-4);
 }
 

@@ -15,7 +15,7 @@ class MeasuredScene {
   public:
     MeasuredScene(const geo::GridFrame& frame, const std::function<double(int column, int row)>& height,
                   lod::VerticalDatum datum = lod::VerticalDatum::ellipsoid,
-                  const lod::UndulationGrid& undulations = {},
+                  const std::optional<geo::GeoidNodes>& geoid = {},
                   const std::function<lod::PostMark(int column, int row)>& mark = {})
         : heights_(frame.columns, frame.rows) {
         SceneParts parts;
@@ -44,7 +44,7 @@ class MeasuredScene {
         const int side = frame.padded_side();
         parts.metrics = {lod::Raster<std::uint16_t>(side, side), lod::Raster<std::uint16_t>(side, side),
                          lod::Raster<std::uint16_t>(side, side)};
-        parts.undulations = undulations;
+        parts.geoid = geoid;
         const auto written = write_scene(parts, folder_ / "a.relevo");
         if (!written) throw std::runtime_error(written.error().message);
         auto opened = lod::Scene::open(folder_ / "a.relevo");

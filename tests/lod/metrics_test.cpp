@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -287,7 +288,7 @@ void expect_level_bounds_hold(const geo::GridFrame& frame) {
     const Raster<float> flat = test::make_heights(frame, [](int, int) { return 0.0; });
     const auto geoid = geo::Geoid::egm96();
     ASSERT_TRUE(geoid) << geoid.error().message;
-    const UndulationGrid undulations(*geoid, frame);
+    const UndulationGrid undulations(std::make_shared<const geo::Geoid>(*geoid), frame);
     const MetricRasters metrics = build_metrics(frame, undulations, flat);
     const auto bounds = level_bounds(frame, undulations);
     for (int level = 0; level < 2 * frame.levels(); ++level) {

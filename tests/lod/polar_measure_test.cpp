@@ -26,19 +26,19 @@ TEST_P(MeasureAroundAPole, APointIsBilinearAnywhere) {
     std::uniform_real_distribution<double> row(0, 150);
     for (int i = 0; i < 2000; ++i) {
         const auto here = scene.frame().lat_lon({column(random), row(random)});
-        const auto point = lod::measure_point(scene.sampler(), nullptr, here);
+        const auto point = lod::measure_point(scene.sampler(), here);
         ASSERT_TRUE(point && point->H);
         EXPECT_NEAR(point->H->m, static_cast<double>(scene.brute_height(here)), 1e-6);
         EXPECT_NEAR(point->resolution_m, 100 / 0.994, 0.01);
     }
     // The pole by any longitude.
     for (const double lon : {0.0, 90.0, -180.0, 33.0}) {
-        const auto point = lod::measure_point(scene.sampler(), nullptr, place(0, lon));
+        const auto point = lod::measure_point(scene.sampler(), place(0, lon));
         ASSERT_TRUE(point && point->H);
         EXPECT_NEAR(point->H->m, static_cast<double>(scene.brute_height(place(0, 0))), 1e-6);
     }
     for (const auto outside : {place(180, 0), place(90, 20), place(0.2, 0)}) {
-        const auto point = lod::measure_point(scene.sampler(), nullptr, outside);
+        const auto point = lod::measure_point(scene.sampler(), outside);
         ASSERT_TRUE(point);
         EXPECT_EQ(point->kind, lod::PointClass::outside);
     }

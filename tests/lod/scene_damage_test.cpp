@@ -31,7 +31,8 @@ Result<void> read_all(const fs::path& path) {
         const auto marks = scene->read_marks(block.column, block.row, lod::part_of(*heights, box));
         if (!marks) return marks.error();
     }
-    if (const auto metrics = lod::load_metrics(*scene, *heights); !metrics) return metrics.error();
+    if (const auto metrics = lod::load_metrics(*scene, *heights, scene->undulations()); !metrics)
+        return metrics.error();
     return {};
 }
 
@@ -151,9 +152,9 @@ TEST_F(SceneDamage, ChangedByHandIsFound) {
 }
 
 TEST_F(SceneDamage, AFolderInPlaceOfABlock) {
-    fs::remove(path_ / "undulation.tif");
-    fs::create_directory(path_ / "undulation.tif");
-    expect_error(read_all(path_), ErrorKind::damaged, "undulation.tif");
+    fs::remove(path_ / "geoid.tif");
+    fs::create_directory(path_ / "geoid.tif");
+    expect_error(read_all(path_), ErrorKind::damaged, "geoid.tif");
 }
 
 /// What became of many damaged scenes. Each is opened, verified and read as a whole.
@@ -276,7 +277,7 @@ TEST_F(SmallSceneDamage, FlippedBitsUnderTheirOwnChecksum) {
         for (auto* layer : {&forged.heights, &forged.marks, &forged.metrics, &forged.lattice}) {
             if (layer->at(0).file == file) layer->at(0).sha256 = sha256_of(flipped);
         }
-        if (forged.undulation.file == file) forged.undulation.sha256 = sha256_of(flipped);
+        if (forged.geoid.file.file == file) forged.geoid.file.sha256 = sha256_of(flipped);
         replace(path_ / "scene.json", lod::scene_text(forged));
         const auto start = std::chrono::steady_clock::now();
         ++(read_all(path_) ? fates.accepted : fates.refused);
@@ -346,8 +347,10 @@ TEST(SceneInfoJson, NonsenseIsRefused) {
                                                          {"/heights/0/file", "\"/etc/passwd\""},
                                                          {"/heights/0/bytes", "-1"},
                                                          {"/metrics/0/row", "1"},
-                                                         {"/undulation", "[]"},
-                                                         {"/undulation/file", "\"heights.vrt\""}};
+                                                         {"/geoid", "[]"},
+                                                         {"/geoid/rows", "1000000"},
+                                                         {"/geoid/south", "-91"},
+                                                         {"/geoid/file", "\"heights.vrt\""}};
     for (const auto& [where, value] : edits) {
         auto json = good;
         json[nlohmann::json::json_pointer(where)] = nlohmann::json::parse(value);

@@ -33,8 +33,8 @@ TEST(SceneWriter, LeavesTheSceneAndNothingElse) {
     const SceneFolder folder;
     ASSERT_TRUE(write_scene(made_up_scene(9, 9), folder / "a.relevo"));
     EXPECT_EQ(names_in(folder.path()), Names{"a.relevo"});
-    EXPECT_EQ(names_in(folder / "a.relevo"), (Names{"heights", "heights.vrt", "lattice", "marks", "metrics",
-                                                    "scene.json", "undulation.tif"}));
+    EXPECT_EQ(names_in(folder / "a.relevo"),
+              (Names{"geoid.tif", "heights", "heights.vrt", "lattice", "marks", "metrics", "scene.json"}));
 }
 
 TEST(SceneWriter, LeavesNothingWithoutACommit) {

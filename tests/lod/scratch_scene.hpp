@@ -8,6 +8,8 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <memory>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
@@ -81,8 +83,31 @@ struct SceneParts {
     lod::Raster<float> heights;
     lod::Raster<lod::PostMark> marks;  // none: plain ones
     lod::MetricRasters metrics;
-    lod::UndulationGrid undulations;
+    std::optional<geo::GeoidNodes> geoid;
+
+    lod::UndulationGrid undulations() const {
+        if (!geoid) return {};
+        return {std::make_shared<const geo::Geoid>(*geo::Geoid::from_nodes(*geoid, "made up")), info.frame};
+    }
 };
+
+/// A geoid that rises evenly to the north and, but for a polar frame, to the east, from -20 m in the corner.
+inline geo::GeoidNodes sloping_geoid(const geo::GridFrame& frame, double rise_east_m, double rise_north_m) {
+    const auto extent = frame.extent();
+    geo::GeoidNodes nodes;
+    nodes.rows = nodes.columns = 8;
+    nodes.south = extent.south;
+    nodes.west = extent.west;
+    nodes.step_lat = std::max(extent.north - extent.south, frame.step_y) / 7;
+    nodes.step_lon = frame.is_polar() ? 45 : std::max(extent.east - extent.west, frame.step_x) / 7;
+    if (frame.is_polar()) rise_east_m = 0;
+    for (int row = 0; row < nodes.rows; ++row) {
+        for (int column = 0; column < nodes.columns; ++column)
+            nodes.undulations.push_back(static_cast<double>(
+                static_cast<float>(-20 + rise_east_m * column / 7 + rise_north_m * row / 7)));
+    }
+    return nodes;
+}
 
 /// A scene of the given size with made-up heights (a void at every 7th post of row 1) and metrics.
 inline SceneParts made_up_scene(int columns, int rows, lod::HeightType type = lod::HeightType::float32) {
@@ -123,16 +148,8 @@ inline SceneParts made_up_scene(int columns, int rows, lod::HeightType type = lo
     source.step_unit = "degree";
     parts.info.sources.push_back(source);
 
-    const int side = frame.padded_side();
-    lod::Raster<float> nodes((side + 1) / 2, (side + 1) / 2);
-    for (int row = 0; row < nodes.rows(); ++row) {
-        for (int column = 0; column < nodes.columns(); ++column) {
-            nodes.at(column, row) =
-                -20.0F + 0.25F * static_cast<float>(column) + 0.5F * static_cast<float>(row);
-        }
-    }
-    parts.undulations = lod::UndulationGrid(nodes, 1);
-    parts.metrics = lod::build_metrics(frame, parts.undulations, parts.heights);
+    parts.geoid = sloping_geoid(frame, 3, 7);
+    parts.metrics = lod::build_metrics(frame, parts.undulations(), parts.heights);
     return parts;
 }
 
@@ -186,7 +203,7 @@ inline Result<void> write_posts(const lod::SceneWriter& writer, const SceneParts
     });
 }
 
-/// Writes a scene, with its undulations unless its heights are above the ellipsoid.
+/// Writes a scene, with its geoid unless its heights are above the ellipsoid.
 inline Result<void> write_scene(const SceneParts& parts, const std::filesystem::path& path,
                                 bool overwrite = false) {
     auto writer = lod::SceneWriter::create(path, {.overwrite = overwrite});
@@ -202,7 +219,9 @@ inline Result<void> write_scene(const SceneParts& parts, const std::filesystem::
     if (auto done = write_layer(*lattice, lattice_of(parts.metrics), lod::BlockGrid::of_lattice(side), false);
         !done)
         return done;
-    if (auto done = writer->write_undulations(parts.undulations); !done) return done;
+    if (parts.geoid) {
+        if (auto done = writer->write_geoid(*parts.geoid); !done) return done;
+    }
     return writer->commit(parts.info);
 }
 
