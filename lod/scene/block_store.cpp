@@ -58,7 +58,7 @@ Result<BlockStore> BlockStore::open(const Folder& scene, const std::string& laye
 
 bool BlockStore::is_whole(const BlockInfo& block) const {
     if (block.bytes == 0) return true;
-    const auto bytes = scene_->read(block.file);
+    const auto bytes = scene_->read(block.file, block.bytes);
     return bytes && bytes->size() == block.bytes && sha256_hex(*bytes) == block.sha256;
 }
 
@@ -111,7 +111,7 @@ Result<std::vector<std::byte>> BlockStore::read(int column, int row) const {
         block = blocks_.at({row, column});
     }
     if (block.bytes == 0) return std::vector<std::byte>{};
-    auto bytes = scene_->read(block.file);
+    auto bytes = scene_->read(block.file, block.bytes);
     if (bytes && sha256_hex(*bytes) != block.sha256) {
         return Error{
             ErrorKind::internal,

@@ -57,7 +57,7 @@ Result<Folder> Folder::open(const std::filesystem::path& path) {
     return Folder(path, std::move(descriptor));
 }
 
-Result<std::vector<std::byte>> Folder::read(const std::string& file) const {
+Result<std::vector<std::byte>> Folder::read(const std::string& file, std::uint64_t most) const {
     const auto damaged = [&](const std::string& why) {
         return Error{ErrorKind::damaged, fmt::format("{} is damaged: {}: {}", path_.string(), file, why)};
     };
@@ -67,6 +67,7 @@ Result<std::vector<std::byte>> Folder::read(const std::string& file) const {
     struct stat status {};
     if (::fstat(descriptor.number(), &status) != 0) return damaged(last_system_error());
     if (!S_ISREG(status.st_mode)) return damaged("not a file");
+    if (static_cast<std::uint64_t>(status.st_size) > most) return damaged("it is longer than it can be");
 
     std::vector<std::byte> bytes(static_cast<std::size_t>(status.st_size));
     std::size_t done = 0;

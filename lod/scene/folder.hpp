@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -37,8 +38,10 @@ class Folder {
 
     const std::filesystem::path& path() const { return path_; }
 
-    /// A file's contents. `file` is relative to the folder. Fails with ErrorKind::damaged.
-    Result<std::vector<std::byte>> read(const std::string& file) const;
+    /// A file's contents. `file` is relative to the folder. Fails with ErrorKind::damaged, also where it is
+    /// longer than `most` bytes: before memory is taken for them.
+    Result<std::vector<std::byte>> read(const std::string& file, std::uint64_t most = kLongestText) const;
+    static constexpr std::uint64_t kLongestText = std::uint64_t{1} << 30;  ///< of a scene's lists
 
     /// Writes a file, in place of one that had the name; sync_all() brings it to the disk. Fails with
     /// ErrorKind::internal; as do all below.

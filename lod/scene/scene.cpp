@@ -81,7 +81,7 @@ Result<Scene> Scene::open(const std::filesystem::path& path) {
 }
 
 Result<std::vector<std::byte>> Scene::read_block(const BlockInfo& block) const {
-    Result<std::vector<std::byte>> bytes = folder_->read(block.file);
+    Result<std::vector<std::byte>> bytes = folder_->read(block.file, block.bytes);
     if (bytes && sha256_hex(*bytes) != block.sha256) {
         return damaged(path_, fmt::format("{}: its checksum is wrong", block.file));
     }

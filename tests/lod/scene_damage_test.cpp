@@ -157,6 +157,17 @@ TEST_F(SceneDamage, AFolderInPlaceOfABlock) {
     expect_error(read_all(path_), ErrorKind::damaged, "geoid.tif");
 }
 
+// Sparse files: they take no disk, but reading them would take all memory.
+TEST_F(SceneDamage, HugeFilesAreNotReadIntoMemory) {
+    for (const auto* file : {"heights/r0000-c0000.tif", "geoid.tif", "scene.json"}) {
+        const auto size = fs::file_size(path_ / file);
+        fs::resize_file(path_ / file, std::uintmax_t{1} << 42);
+        expect_error(read_all(path_), ErrorKind::damaged, file);
+        fs::resize_file(path_ / file, size);
+    }
+    EXPECT_TRUE(read_all(path_));
+}
+
 /// What became of many damaged scenes. Each is opened, verified and read as a whole.
 struct Fates {
     int refused = 0;
