@@ -125,9 +125,9 @@ Result<void> measure_posts(const lod::DraftPosts& posts, const lod::MeshHeights&
                            bool count_outliers, lod::SceneInfo& info, const Stage& stage) {
     const geo::GridFrame& frame = info.frame;
     const geo::PostPositions positions(frame);
-    lod::MetricBuilder metrics(
-        {frame, positions, undulations, fill},
-        info.bounded_errors ? lod::ObjectErrors::both : lod::ObjectErrors::incremental);
+    lod::MetricBuilder metrics({frame, positions, undulations, fill}, info.bounded_errors
+                                                                          ? lod::ObjectErrors::both
+                                                                          : lod::ObjectErrors::incremental);
     auto layer = writer.layer(lod::kMetricsFolder);
     if (!layer) return layer.error();
     const int side = frame.padded_side();

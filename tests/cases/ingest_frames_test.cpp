@@ -227,7 +227,7 @@ TEST(Frames, APeakIsFoundToANanodegreeInFourCrss) {
 }
 
 // The same, at a place near a pole and in the frame around it.
-TEST(Frames, APeakIsFoundToANanodegreeAroundAPole) {
+TEST(Frames, APeakIsFoundAroundAPole) {
     for (const char* kind : {"Area", "Point"}) {
         const SceneFolder folder;
         SyntheticRaster raster;

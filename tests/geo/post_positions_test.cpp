@@ -1,32 +1,15 @@
 #include "geo/post_positions.hpp"
 
-#include <random>
 #include <string>
 #include <vector>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "tests/geo/position_difference.hpp"
+
 namespace relevo::geo {
 namespace {
-
-/// Largest distance from GridFrame::ecef, which takes every post through GeographicLib.
-double worst_difference(const GridFrame& frame) {
-    const PostPositions posts(frame);
-    std::mt19937_64 random(7);
-    std::uniform_int_distribution<int> index(0, frame.padded_side() - 1);
-    double worst = 0;
-    for (const double h : {-11000.0, 0.0, 100.0, 4000.0, 9000.0}) {
-        for (int i = 0; i < 20000; ++i) {
-            const int column = index(random);
-            const int row = index(random);
-            const GridPosition place{static_cast<double>(column), static_cast<double>(row)};
-            const Ecef exact = frame.ecef(place, EllipsoidalHeight{h});
-            worst = std::max(worst, glm::length(posts.at(column, row, h) - exact.m));
-        }
-    }
-    return worst;
-}
 
 TEST(PostPositions, AgreeWithGeographicLib) {
     const std::vector<GridFrame> frames{{FrameKind::geographic, -106, 38, 1.0 / 3600, 1.0 / 3600, 3601, 3601},

@@ -19,14 +19,7 @@ using test::SceneFolder;
 using Corners = std::vector<std::array<double, 2>>;
 
 geo::GridFrame grid(double west, double north, double step, int columns, int rows) {
-    geo::GridFrame frame;
-    frame.west = west;
-    frame.north = north;
-    frame.step_x = step;
-    frame.step_y = step;
-    frame.columns = columns;
-    frame.rows = rows;
-    return frame;
+    return {geo::FrameKind::geographic, west, north, step, step, columns, rows};
 }
 
 /// Polygons of one ring each, by OGR.

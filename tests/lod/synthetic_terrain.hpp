@@ -14,14 +14,7 @@ inline constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
 /// A geographic frame whose north-west post is at (north, west).
 inline geo::GridFrame geographic_frame(int columns, int rows, double north = 36, double west = 138,
                                        double step = 1.0 / 3600) {
-    geo::GridFrame frame;
-    frame.north = north;
-    frame.west = west;
-    frame.step_x = step;
-    frame.step_y = step;
-    frame.columns = columns;
-    frame.rows = rows;
-    return frame;
+    return {geo::FrameKind::geographic, west, north, step, step, columns, rows};
 }
 
 /// A polar frame whose middle is at (x, y) metres from the pole in UPS.

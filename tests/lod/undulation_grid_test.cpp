@@ -13,14 +13,7 @@ namespace {
 using lod::UndulationGrid;
 
 geo::GridFrame frame_of(double west, double north, double step, int columns, int rows) {
-    geo::GridFrame frame;
-    frame.west = west;
-    frame.north = north;
-    frame.step_x = step;
-    frame.step_y = step;
-    frame.columns = columns;
-    frame.rows = rows;
-    return frame;
+    return {geo::FrameKind::geographic, west, north, step, step, columns, rows};
 }
 
 /// The pole in the middle.
