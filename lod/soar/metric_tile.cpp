@@ -61,8 +61,9 @@ Columns columns_in_row(const GridPoint (&corner)[3], int row) {
 // sum, so that results are the same bits everywhere.
 using Four = double __attribute__((vector_size(32)));
 
-// The same wherever it lies in memory.
-using FourAnywhere = double __attribute__((vector_size(32), aligned(8), may_alias));
+// The same wherever it lies in memory. A typedef: in a `using`, clang passes over the alignment, and then
+// loads from wherever it is as if it lay at a multiple of 32.
+typedef double FourAnywhere __attribute__((vector_size(32), aligned(8), may_alias));
 
 /// Largest squared distance of `count` posts from start, start + along, ...; a hole is NaN and never larger.
 /// 1.5 ns a post (AVX2): nearly all of the time that metrics take is spent here.
