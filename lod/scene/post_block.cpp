@@ -60,6 +60,8 @@ Result<Raster<float>> decode_as(std::span<const std::byte> bytes, const BlockGri
     if (!samples) return samples.error();
     Raster<float> heights(box.columns, box.rows);
     std::ranges::transform(*samples, heights.samples().begin(), [](T sample) { return height_from(sample); });
+    if (std::ranges::any_of(heights.samples(), [](float H) { return std::isinf(H); }))
+        return Error{ErrorKind::damaged, fmt::format("{} is damaged: it has an infinite height", name)};
     return heights;
 }
 

@@ -3,12 +3,15 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
+#include "lod/scene/block_file.hpp"
+#include "lod/scene/post_block.hpp"
 #include "lod/scene/scene_files.hpp"
 #include "lod/scene/sha256.hpp"
 #include "tests/lod/scratch_scene.hpp"
@@ -297,6 +300,20 @@ TEST_F(SmallSceneDamage, FlippedBitsUnderTheirOwnChecksum) {
         replace(path_ / file, text);
     }
     fates.print("flipped bits under their own checksum");
+}
+
+// No source gives such a height, and the mesh knows none.
+TEST(SceneDamageOfHeights, InfinityIsRefused) {
+    const float infinity = std::numeric_limits<float>::infinity();
+    for (const float height : {infinity, -infinity}) {
+        const std::vector<float> heights{1, 2, 3, height};
+        const auto bytes = lod::encode_block<float>(heights, {2, 2}, std::nullopt);
+        ASSERT_TRUE(bytes);
+        const auto read = lod::decode_heights(*bytes, lod::HeightType::float32, {0, 0, 2, 2}, "block.tif");
+        ASSERT_FALSE(read);
+        EXPECT_EQ(read.error().kind, ErrorKind::damaged);
+        EXPECT_NE(read.error().message.find("block.tif"), std::string::npos);
+    }
 }
 
 // A pipe was once waited for, for ever.
