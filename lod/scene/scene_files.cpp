@@ -12,6 +12,7 @@ namespace relevo::lod {
 namespace {
 
 constexpr const char* kChecksum = "sha256";
+constexpr int kDeepest = 16;  // scene.json has lists in objects in lists, and no more
 
 /// Text that is not UTF-8 (a file name may be) is replaced where it is not: JSON knows nothing else.
 std::string dump(const nlohmann::json& json, int indent) {
@@ -29,6 +30,18 @@ int epsg_code(geo::FrameKind kind) {
             break;
     }
     return 4326;
+}
+
+/// Discarded where it is not JSON, or so deep that whoever goes down into it (a copy, a dump) has no stack
+/// for it.
+nlohmann::json parse(const std::string& text) {
+    bool too_deep = false;
+    const auto keep = [&](int depth, nlohmann::json::parse_event_t, const nlohmann::json&) {
+        too_deep = too_deep || depth > kDeepest;
+        return !too_deep;
+    };
+    nlohmann::json json = nlohmann::json::parse(text, keep, false);
+    return too_deep ? nlohmann::json(nlohmann::json::value_t::discarded) : json;
 }
 
 /// Of everything but itself, in one form whatever the spaces and the order of keys in the file.
@@ -56,7 +69,7 @@ std::string scene_text(const SceneInfo& info) {
 }
 
 Result<SceneInfo> scene_info_from_text(const std::string& text) {
-    const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+    const nlohmann::json json = parse(text);
     if (json.is_discarded()) return Error{ErrorKind::damaged, "it is cut short or not JSON"};
     Result<SceneInfo> info = scene_info_from_json(json);
     // A newer format is named as such, whatever it does with checksums.

@@ -328,6 +328,17 @@ TEST_F(SmallSceneDamage, APipeInPlaceOfAFile) {
     }
 }
 
+// Lists within lists once ended the program: comparing the checksum goes down into them.
+TEST(SceneInfoJson, DeepNestingIsRefused) {
+    for (const int depth : {100, 1'000'000}) {
+        const std::string lists(static_cast<std::size_t>(depth), '[');
+        const std::string ends(static_cast<std::size_t>(depth), ']');
+        const auto info = lod::scene_info_from_text("{\"sha256\": \"0\", \"notes\": " + lists + ends + "}");
+        ASSERT_FALSE(info);
+        EXPECT_EQ(info.error().kind, ErrorKind::damaged);
+    }
+}
+
 /// Values that pass for JSON but make no sense. The checksum is not asked here: it would hide them.
 TEST(SceneInfoJson, NonsenseIsRefused) {
     const SceneFolder folder;
