@@ -1,62 +1,150 @@
-// Bytes as the files of a scene: the first says which, the rest is scene.json or a block.
+// Bytes as the files of a scene: the first says which, the second the sides of a block, the rest is the file.
+// With RELEVO_FUZZ_GOOD in the environment all must be accepted: a seed that is refused leads nowhere.
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
 #include <span>
 #include <string>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
-#include "lod/scene/block_file.hpp"
+#include "lod/scene/metric_code.hpp"
+#include "lod/scene/post_block.hpp"
+#include "lod/scene/scene.hpp"
 #include "lod/scene/scene_files.hpp"
 #include "lod/scene/scene_info.hpp"
+#include "lod/scene/sha256.hpp"
 
 namespace {
 
 using namespace relevo;
 
+// Each of these says whether what it was given was accepted.
+
 /// What has been read and found good must come back from what is written of it.
-void read_scene_json(const std::string& text) {
-    (void)lod::scene_info_from_text(text);  // refuses at the latest by its checksum
+bool read_scene_json(const std::string& text) {
+    const bool whole = bool(lod::scene_info_from_text(text));  // seldom: damage spoils the checksum
     const auto json = nlohmann::json::parse(text, nullptr, false);
-    if (json.is_discarded()) return;
+    if (json.is_discarded()) return whole;
     const auto info = lod::scene_info_from_json(json);
-    if (!info) return;
+    if (!info) return whole;
     const auto again = lod::scene_info_from_text(lod::scene_text(*info));
     if (!again) {
         fmt::print(stderr, "written, but not read again: {}\n", again.error().message);
         std::abort();
     }
+    return whole;
 }
 
-template <class T>
-void read_block(std::span<const std::byte> bytes, lod::BlockShape shape) {
-    const auto samples = lod::decode_block<T>(bytes, shape, "block");
-    if (samples && samples->size() != shape.samples()) std::abort();
+bool read_heights(std::span<const std::byte> bytes, lod::HeightType type, int side) {
+    const auto heights = lod::decode_heights(bytes, type, {0, 0, side, side}, "block");
+    if (!heights) return false;
+    if (heights->columns() != side || heights->rows() != side) std::abort();
+    for (const float H : heights->samples())
+        if (std::isinf(H)) std::abort();
+    return true;
+}
+
+/// Over heights of which the first is void, as in the scene that seeds come from.
+bool read_marks(std::span<const std::byte> bytes, int side) {
+    lod::Raster<float> heights(side, side);
+    heights.at(0, 0) = std::numeric_limits<float>::quiet_NaN();
+    const auto marks = lod::decode_marks(bytes, heights, "block");
+    if (!marks) return false;
+    for (std::size_t i = 0; i < heights.samples().size(); ++i)
+        if (marks->samples()[i].is_void() != std::isnan(heights.samples()[i])) std::abort();
+    return true;
+}
+
+bool read_metrics(std::span<const std::byte> bytes, int side) {
+    const auto codes = lod::decode_metrics(bytes, side, side, "block");
+    if (!codes) return false;
+    for (const auto* layer : {&codes->bounded, &codes->incremental, &codes->radius})
+        for (const std::uint16_t code : layer->samples())
+            if (code > lod::kLargestCode) std::abort();
+    return true;
+}
+
+/// A scene of voids alone, which vouches for whatever geoid it is given. Gone with the process.
+class GeoidScene {
+  public:
+    GeoidScene()
+        : path_(std::filesystem::temp_directory_path() / fmt::format("relevo-fuzz-{}.relevo", getpid())) {
+        std::filesystem::create_directories(path_);
+    }
+    ~GeoidScene() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    GeoidScene(const GeoidScene&) = delete;
+    GeoidScene& operator=(const GeoidScene&) = delete;
+
+    Result<lod::Scene> open_with(std::span<const std::byte> geoid, int side) const {
+        lod::SceneInfo info;
+        info.frame = {geo::FrameKind::geographic, 10, 46, 0.001, 0.001, side, side};
+        info.void_posts = static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side);
+        info.undulation.file = lod::kUndulationFile;
+        info.undulation.sha256 = lod::sha256_hex(geoid);
+        info.undulation.bytes = geoid.size();
+        write(lod::kUndulationFile, {reinterpret_cast<const char*>(geoid.data()), geoid.size()});
+        write(lod::kSceneFile, lod::scene_text(info));
+        return lod::Scene::open(path_);
+    }
+
+  private:
+    void write(const char* file, std::string_view text) const {
+        std::ofstream(path_ / file, std::ios::binary) << text;
+    }
+
+    std::filesystem::path path_;
+};
+
+bool read_geoid(std::span<const std::byte> bytes, int side) {
+    static const GeoidScene files;
+    const auto scene = files.open_with(bytes, side);
+    if (!scene) {
+        // Else it is the scene around the geoid that is refused, and nothing is tried here.
+        if (scene.error().message.find(lod::kUndulationFile) == std::string::npos) {
+            fmt::print(stderr, "{}\n", scene.error().message);
+            std::abort();
+        }
+        return false;
+    }
+    const int last = scene->info().frame.padded_side() - 1;
+    for (const int column : {0, last})
+        for (const int row : {0, last}) (void)scene->undulations().at(column, row);
+    return true;
+}
+
+bool read(std::uint8_t kind, int side, std::span<const std::byte> bytes) {
+    switch (kind) {
+        case 'i':
+            return read_heights(bytes, lod::HeightType::int16, side);
+        case 'f':
+            return read_heights(bytes, lod::HeightType::float32, side);
+        case 'm':
+            return read_marks(bytes, side);
+        case 'e':
+            return read_metrics(bytes, side);
+        case 'g':
+            return read_geoid(bytes, side);
+        default:
+            return read_scene_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    }
 }
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static const bool must_be_good = std::getenv("RELEVO_FUZZ_GOOD") != nullptr;
     if (size < 2) return 0;
-    const std::span<const std::byte> rest = std::as_bytes(std::span(data + 2, size - 2));
-    // 'j' for JSON, 'i', 'u', 'f' for blocks; then the block's side, so that seeds are easily made.
-    const int side = data[1];
-    const lod::BlockShape shape{side + 1, side + 1, data[0] == 'u' ? 3 : 1};
-    switch (data[0]) {
-        case 'i':
-            read_block<std::int16_t>(rest, shape);
-            break;
-        case 'u':
-            read_block<std::uint16_t>(rest, shape);
-            break;
-        case 'f':
-            read_block<float>(rest, shape);
-            (void)lod::block_shape(rest, "block");
-            break;
-        default:
-            read_scene_json({reinterpret_cast<const char*>(rest.data()), rest.size()});
-    }
+    const bool accepted = read(data[0], data[1] + 1, std::as_bytes(std::span(data + 2, size - 2)));
+    if (must_be_good && !accepted) std::abort();
     return 0;
 }
