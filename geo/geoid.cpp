@@ -252,9 +252,9 @@ GeoidNodes Geoid::nodes_around(const GridFrame::Extent& area) const {
     const auto node_below = [](double nodes) { return static_cast<int>(std::floor(nodes + kSlack)); };
     const int lowest = node_below((area.south - south_) / step_lat_) - kSpare;
     const int highest = node_below((area.north - south_) / step_lat_) + 1 + kSpare;
-    const int leftmost =
-        node_below(whole_earth_ ? (area.west - west_) / step_lon_ : column_of(Degrees{area.west})) - kSpare;
-    const int rightmost = leftmost + node_below((area.east - area.west) / step_lon_) + 2 + 2 * kSpare;
+    const double west = whole_earth_ ? (area.west - west_) / step_lon_ : column_of(Degrees{area.west});
+    const int leftmost = node_below(west) - kSpare;
+    const int rightmost = node_below(west + (area.east - area.west) / step_lon_) + 1 + kSpare;
     const bool all_rows = whole_earth_ && (lowest < 0 || highest >= rows_);
     const bool all_columns = all_rows || band_ || rightmost - leftmost + 1 >= columns_;
     const bool turns = whole_earth_ && !all_columns;  // else columns end with the grid's

@@ -4,22 +4,18 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <span>
 #include <string>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
+#include "lod/scene/geoid_block.hpp"
 #include "lod/scene/metric_code.hpp"
 #include "lod/scene/post_block.hpp"
-#include "lod/scene/scene.hpp"
 #include "lod/scene/scene_files.hpp"
 #include "lod/scene/scene_info.hpp"
-#include "lod/scene/sha256.hpp"
 
 namespace {
 
@@ -71,54 +67,13 @@ bool read_metrics(std::span<const std::byte> bytes, int side) {
     return true;
 }
 
-/// A scene of voids alone, which vouches for whatever geoid it is given. Gone with the process.
-class GeoidScene {
-  public:
-    GeoidScene()
-        : path_(std::filesystem::temp_directory_path() / fmt::format("relevo-fuzz-{}.relevo", getpid())) {
-        std::filesystem::create_directories(path_);
-    }
-    ~GeoidScene() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    GeoidScene(const GeoidScene&) = delete;
-    GeoidScene& operator=(const GeoidScene&) = delete;
-
-    Result<lod::Scene> open_with(std::span<const std::byte> geoid, int side) const {
-        lod::SceneInfo info;
-        info.frame = {geo::FrameKind::geographic, 10, 46, 0.001, 0.001, side, side};
-        info.void_posts = static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side);
-        info.undulation.file = lod::kUndulationFile;
-        info.undulation.sha256 = lod::sha256_hex(geoid);
-        info.undulation.bytes = geoid.size();
-        write(lod::kUndulationFile, {reinterpret_cast<const char*>(geoid.data()), geoid.size()});
-        write(lod::kSceneFile, lod::scene_text(info));
-        return lod::Scene::open(path_);
-    }
-
-  private:
-    void write(const char* file, std::string_view text) const {
-        std::ofstream(path_ / file, std::ios::binary) << text;
-    }
-
-    std::filesystem::path path_;
-};
-
 bool read_geoid(std::span<const std::byte> bytes, int side) {
-    static const GeoidScene files;
-    const auto scene = files.open_with(bytes, side);
-    if (!scene) {
-        // Else it is the scene around the geoid that is refused, and nothing is tried here.
-        if (scene.error().message.find(lod::kUndulationFile) == std::string::npos) {
-            fmt::print(stderr, "{}\n", scene.error().message);
-            std::abort();
-        }
-        return false;
-    }
-    const int last = scene->info().frame.padded_side() - 1;
-    for (const int column : {0, last})
-        for (const int row : {0, last}) (void)scene->undulations().at(column, row);
+    const lod::GeoidInfo where{{}, 40, 5, 0.25, 0.25, side, side};
+    const auto geoid = lod::decode_geoid(bytes, where, "block");
+    if (!geoid) return false;
+    for (const double lat : {40.0, 41.1, 90.0})
+        for (const double lon : {5.0, 6.1, -100.0})
+            if (!std::isfinite(geoid->undulation({geo::Degrees{lat}, geo::Degrees{lon}}).m)) std::abort();
     return true;
 }
 
