@@ -11,6 +11,7 @@
 
 #include "ingest/refusal.hpp"
 #include "ingest/vrt_sources.hpp"
+#include "ingest/zip_archive.hpp"
 
 namespace relevo::ingest {
 namespace {
@@ -32,6 +33,7 @@ class OptionInScope {
 };
 
 DatasetPtr open_raster(const std::string& name) {
+    if (is_unreadable_hgt(name)) return nullptr;
     return DatasetPtr{GDALDataset::Open(
         name.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, elevation_drivers())};
 }

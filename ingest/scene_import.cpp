@@ -11,6 +11,7 @@
 #include "ingest/post_passes.hpp"
 #include "ingest/refusal.hpp"
 #include "ingest/scene_geoid.hpp"
+#include "ingest/zip_archive.hpp"
 #include "lod/scene/parallel_blocks.hpp"
 #include "lod/scene/sha256.hpp"
 
@@ -72,6 +73,7 @@ Result<SceneImport::Outcome> SceneImport::run(lod::SceneWriter& writer, ImportPl
     if (info_.valid_posts == 0) return Outcome::all_void;
     if (auto done = compare_with_sources(*posts, Stage{progress, 0.85, 0.95}); !done) return done.error();
     write_notes(plan);
+    if (auto sound = check_archives(); !sound) return sound.error();
     if (auto done = add_checksums(); !done) return done.error();
     if (auto same = check_unchanged(files_, states_of(mosaic_.all_files())); !same) return same.error();
     if (progress && !progress(0.97)) return interrupted();
@@ -143,6 +145,13 @@ void SceneImport::write_notes(ImportPlan& plan) {
     } else {
         info_.notes = notes;
     }
+}
+
+Result<void> SceneImport::check_archives() const {
+    const auto& sources = options_.mosaic.sources;
+    return lod::for_each_block(static_cast<int>(sources.size()), [&](int i) {
+        return check_archive(sources[static_cast<std::size_t>(i)].input);
+    });
 }
 
 Result<void> SceneImport::add_checksums() {

@@ -41,6 +41,7 @@ class SceneImport {
                                const Stage& stage);
     Result<void> compare_with_sources(const lod::DraftPosts& posts, const Stage& stage);
     void write_notes(ImportPlan& plan);
+    Result<void> check_archives() const;
     Result<void> add_checksums();
 
     const Mosaic& mosaic_;

@@ -15,6 +15,7 @@
 #include <gdal_priv.h>
 
 #include "ingest/refusal.hpp"
+#include "ingest/zip_archive.hpp"
 
 namespace relevo::ingest {
 namespace {
@@ -188,6 +189,9 @@ class Check {
         if (VSIStatL(name.c_str(), &status) != 0 || (!relative && name.find(':') != std::string::npos))
             return refusal(shown_, fmt::format("its VRT reads '{}', and there is no such file", text),
                            "Fetch it, or make the VRT anew");
+        if (is_unreadable_hgt(name))
+            return refusal(shown_, fmt::format("its VRT reads '{}', which cannot be opened", text),
+                           "Fetch it again, or change its permissions");
         const auto start = text_of(name, 1024);
         const auto first = start ? start->find_first_not_of(" \t\r\n\xef\xbb\xbf") : std::string::npos;
         const bool is_text = first != std::string::npos && ((*start)[first] == '<' || (*start)[first] == '{');

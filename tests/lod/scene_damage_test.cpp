@@ -2,7 +2,6 @@
 // names the file.
 
 #include <chrono>
-#include <cstdlib>
 #include <limits>
 #include <random>
 
@@ -14,6 +13,7 @@
 #include "lod/scene/post_block.hpp"
 #include "lod/scene/scene_files.hpp"
 #include "lod/scene/sha256.hpp"
+#include "tests/damage_trials.hpp"
 #include "tests/lod/scratch_scene.hpp"
 
 namespace relevo::test {
@@ -212,12 +212,6 @@ std::string sha256_of(const std::string& text) {
     return lod::sha256_hex(std::as_bytes(std::span(text)));
 }
 
-/// RELEVO_DAMAGE_TRIALS=10000 asks for more trials than a test has time for.
-int trials(int usual) {
-    const char* asked = std::getenv("RELEVO_DAMAGE_TRIALS");
-    return asked == nullptr ? usual : std::atoi(asked);
-}
-
 class SmallSceneDamage : public testing::Test {
   protected:
     void SetUp() override {
@@ -254,7 +248,7 @@ TEST_F(SmallSceneDamage, FlippedBits) {
     std::mt19937_64 random(kSeed);
     Fates fates;
     files_.erase("heights.vrt");  // for other programs, which may change it
-    const int count = trials(2000);
+    const int count = damage_trials(2000);
     for (int i = 0; i < count; ++i) {
         const auto& [file, text] = *std::next(files_.begin(), i % static_cast<int>(files_.size()));
         std::string flipped = text;
@@ -279,7 +273,7 @@ TEST_F(SmallSceneDamage, FlippedBitsUnderTheirOwnChecksum) {
     ASSERT_TRUE(info);
     files_.erase("heights.vrt");
     files_.erase("scene.json");
-    const int count = trials(600);
+    const int count = damage_trials(600);
     for (int i = 0; i < count; ++i) {
         const auto& [file, text] = *std::next(files_.begin(), i % static_cast<int>(files_.size()));
         std::string flipped = text;
