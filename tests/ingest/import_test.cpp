@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "geo/coordinate_text.hpp"
+#include "lod/measure/point.hpp"
 #include "lod/scene/scene_writer.hpp"
 #include "lod/scene/sha256.hpp"
 #include "tests/ingest/importing.hpp"
@@ -243,6 +244,42 @@ TEST(Import, EllipsoidalHeightsHaveNoUndulation) {
     const auto orthometric = lod::Scene::open(folder / "scene.relevo");
     ASSERT_TRUE(orthometric);
     EXPECT_NEAR(orthometric->undulations().at(3, 3), 47, 3);  // 50 N, 10 E
+}
+
+// h = H + N by the datum's own geoid, where that covers the place: a parabola, which the spline through its
+// nodes is.
+TEST(Import, AnotherDatumKeepsItsGeoid) {
+    const SceneFolder folder;
+    SyntheticRaster geoid;
+    geoid.type = GDT_Float64;
+    geoid.columns = geoid.rows = 33;
+    geoid.geotransform = {9.9375, 0.125, 0, 52.0625, 0, -0.125};  // nodes over 10..14 E, 48..52 N
+    const auto N = [](double lat, double lon) {
+        return 40 + 3 * (lon - 12) - 2 * (lat - 50) + (lon - 12) * (lat - 50);
+    };
+    geoid.value = [&](int column, int row) { return N(52 - 0.125 * row, 10 + 0.125 * column); };
+    SyntheticRaster dem;
+    dem.columns = dem.rows = 400;
+    dem.crs = "EPSG:4326+3855";                            // EGM2008
+    dem.geotransform = {13.8, 0.001, 0, 50.3, 0, -0.001};  // the geoid ends in its middle
+    auto options = options_for(dem.write(folder / "dem.tif"));
+    options.mosaic.geoid = geoid.write(folder / "geoid.tif");
+    const auto info = imported(folder, options).info;
+    EXPECT_EQ(info.vertical.datum, lod::VerticalDatum::other);
+    EXPECT_TRUE(info.vertical.geoid_known);
+    const auto scene = lod::Scene::open(folder / "scene.relevo");
+    ASSERT_TRUE(scene);
+    lod::HeightSampler sampler(*scene);
+    for (double lat = 49.95; lat < 50.25; lat += 0.0317) {
+        for (double lon = 13.81; lon < 14.19; lon += 0.0213) {
+            const auto point = lod::measure_point(sampler, {geo::Degrees{lat}, geo::Degrees{lon}});
+            ASSERT_TRUE(point && point->H) << lat << ' ' << lon;
+            ASSERT_EQ(point->N.has_value(), lon <= 14) << lon;
+            if (!point->N) continue;
+            EXPECT_NEAR(point->N->m, N(lat, lon), 4e-6);  // floats, of some 40 m
+            EXPECT_EQ(point->h->m, point->H->m + point->N->m);
+        }
+    }
 }
 
 TEST(Import, StatisticsAndTheMeshsDifference) {
