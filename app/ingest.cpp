@@ -12,8 +12,8 @@
 #include "app/command.hpp"
 #include "app/source_flags.hpp"
 #include "ingest/import.hpp"
-#include "ingest/inputs.hpp"
-#include "ingest/vertical_datum.hpp"
+#include "ingest/reference/vertical_datum.hpp"
+#include "ingest/source/inputs.hpp"
 
 namespace relevo::app {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "ingest/source.hpp"
+#include "ingest/source/source.hpp"
 
 namespace relevo::app {
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "geo/result.hpp"
-#include "ingest/mosaic.hpp"
+#include "ingest/mosaic/mosaic.hpp"
 #include "ingest/progress.hpp"
-#include "ingest/sea_classifier.hpp"
+#include "ingest/sea/sea_classifier.hpp"
 #include "lod/scene/scene_info.hpp"
 
 namespace relevo::ingest {

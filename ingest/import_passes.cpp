@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "ingest/blocks_in_order.hpp"
-#include "ingest/post_passes.hpp"
-#include "ingest/survey.hpp"
+#include "ingest/posts/post_passes.hpp"
+#include "ingest/posts/survey.hpp"
 #include "lod/scene/scene_files.hpp"
 #include "lod/soar/metrics.hpp"
 #include "lod/soar/stored_metrics.hpp"

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "ingest/mosaic.hpp"
-#include "ingest/outliers.hpp"
+#include "ingest/mosaic/mosaic.hpp"
+#include "ingest/posts/outliers.hpp"
 #include "ingest/progress.hpp"
-#include "ingest/sea_classifier.hpp"
+#include "ingest/sea/sea_classifier.hpp"
 #include "lod/mesh_heights.hpp"
 #include "lod/scene/draft_posts.hpp"
 #include "lod/scene/scene_writer.hpp"

@@ -6,7 +6,7 @@
 #include <tbb/task_arena.h>
 
 #include "ingest/refusal.hpp"
-#include "ingest/suspicions.hpp"
+#include "ingest/source/suspicions.hpp"
 
 namespace relevo::ingest {
 namespace {

@@ -5,7 +5,7 @@
 #include "geo/result.hpp"
 #include "ingest/import.hpp"
 #include "ingest/memory_budget.hpp"
-#include "ingest/mosaic.hpp"
+#include "ingest/mosaic/mosaic.hpp"
 
 namespace relevo::ingest {
 

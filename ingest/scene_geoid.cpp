@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "ingest/vertical_datum.hpp"
+#include "ingest/reference/vertical_datum.hpp"
 
 namespace relevo::ingest {
 namespace {

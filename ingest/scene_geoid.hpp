@@ -5,7 +5,7 @@
 
 #include "geo/result.hpp"
 #include "ingest/import.hpp"
-#include "ingest/mosaic.hpp"
+#include "ingest/mosaic/mosaic.hpp"
 #include "lod/scene/scene_writer.hpp"
 #include "lod/undulation_grid.hpp"
 

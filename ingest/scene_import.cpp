@@ -8,10 +8,10 @@
 
 #include "ingest/import_passes.hpp"
 #include "ingest/import_plan.hpp"
-#include "ingest/post_passes.hpp"
+#include "ingest/posts/post_passes.hpp"
 #include "ingest/refusal.hpp"
 #include "ingest/scene_geoid.hpp"
-#include "ingest/zip_archive.hpp"
+#include "ingest/source/zip_archive.hpp"
 #include "lod/scene/parallel_blocks.hpp"
 #include "lod/scene/sha256.hpp"
 

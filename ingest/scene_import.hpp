@@ -8,7 +8,7 @@
 #include "ingest/import.hpp"
 #include "ingest/job.hpp"
 #include "ingest/memory_budget.hpp"
-#include "ingest/mosaic.hpp"
+#include "ingest/mosaic/mosaic.hpp"
 #include "ingest/progress.hpp"
 #include "lod/mesh_heights.hpp"
 #include "lod/scene/scene_writer.hpp"

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "ingest/gdal_messages.hpp"
-#include "ingest/source.hpp"
-#include "ingest/zip_archive.hpp"
+#include "ingest/source/gdal_messages.hpp"
+#include "ingest/source/source.hpp"
+#include "ingest/source/zip_archive.hpp"
 #include "tests/damage_trials.hpp"
 #include "tests/ingest/importing.hpp"
 

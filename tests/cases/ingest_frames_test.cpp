@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "ingest/operation.hpp"
+#include "ingest/reference/operation.hpp"
 #include "tests/ingest/importing.hpp"
 #include "tests/ingest/whole_mosaic.hpp"
 #include "tests/shared_data.hpp"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "ingest/source.hpp"
+#include "ingest/source/source.hpp"
 #include "tests/ingest/importing.hpp"
 #include "tests/shared_data.hpp"
 

@@ -6,7 +6,7 @@
 #include <gdal_priv.h>
 #include <gtest/gtest.h>
 
-#include "ingest/open_dataset.hpp"
+#include "ingest/source/open_dataset.hpp"
 #include "tests/ingest/classifying.hpp"
 #include "tests/shared_data.hpp"
 

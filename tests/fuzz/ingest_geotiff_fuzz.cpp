@@ -8,7 +8,7 @@
 
 #include <cpl_vsi.h>
 
-#include "ingest/source.hpp"
+#include "ingest/source/source.hpp"
 
 namespace {
 

@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "ingest/sea_bed.hpp"
-#include "ingest/sea_classifier.hpp"
+#include "ingest/sea/sea_bed.hpp"
+#include "ingest/sea/sea_classifier.hpp"
 
 namespace relevo::test {
 

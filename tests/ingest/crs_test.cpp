@@ -1,4 +1,4 @@
-#include "ingest/crs.hpp"
+#include "ingest/reference/crs.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "ingest/fill_voids.hpp"
+#include "ingest/posts/fill_voids.hpp"
 
 #include <cmath>
 #include <random>

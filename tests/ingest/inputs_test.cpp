@@ -1,4 +1,4 @@
-#include "ingest/inputs.hpp"
+#include "ingest/source/inputs.hpp"
 
 #include <fstream>
 

@@ -1,11 +1,11 @@
-#include "ingest/interpolated_transform.hpp"
+#include "ingest/resample/interpolated_transform.hpp"
 
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "ingest/grid_map.hpp"
+#include "ingest/mosaic/grid_map.hpp"
 
 namespace relevo::ingest {
 namespace {

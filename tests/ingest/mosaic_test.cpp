@@ -1,4 +1,4 @@
-#include "ingest/mosaic.hpp"
+#include "ingest/mosaic/mosaic.hpp"
 
 #include <cmath>
 

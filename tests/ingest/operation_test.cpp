@@ -1,4 +1,4 @@
-#include "ingest/operation.hpp"
+#include "ingest/reference/operation.hpp"
 
 #include <cmath>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "ingest/outliers.hpp"
+#include "ingest/posts/outliers.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "ingest/open_dataset.hpp"
+#include "ingest/source/open_dataset.hpp"
 #include "tests/ingest/classifying.hpp"
 #include "tests/shared_data.hpp"
 

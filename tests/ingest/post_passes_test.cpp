@@ -1,4 +1,4 @@
-#include "ingest/post_passes.hpp"
+#include "ingest/posts/post_passes.hpp"
 
 #include <cmath>
 #include <optional>
@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "ingest/fill_voids.hpp"
+#include "ingest/posts/fill_voids.hpp"
 #include "lod/scene/scene_writer.hpp"
 #include "tests/ingest/classifying.hpp"
 #include "tests/lod/scratch_scene.hpp"

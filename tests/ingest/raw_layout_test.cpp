@@ -1,10 +1,10 @@
-#include "ingest/raw_layout.hpp"
+#include "ingest/source/raw_layout.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "ingest/source.hpp"
+#include "ingest/source/source.hpp"
 #include "tests/ingest/importing.hpp"
 
 namespace relevo::ingest {

@@ -1,4 +1,4 @@
-#include "ingest/resample.hpp"
+#include "ingest/resample/resample.hpp"
 
 #include <cmath>
 #include <functional>

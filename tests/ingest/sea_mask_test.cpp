@@ -1,4 +1,4 @@
-#include "ingest/sea_mask.hpp"
+#include "ingest/sea/sea_mask.hpp"
 
 #include <array>
 #include <cmath>

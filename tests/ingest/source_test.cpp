@@ -1,5 +1,5 @@
 // What ingest refuses, and what it tells to do about it; and how values become heights.
-#include "ingest/source.hpp"
+#include "ingest/source/source.hpp"
 
 #include <cmath>
 #include <filesystem>

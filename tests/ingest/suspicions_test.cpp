@@ -1,4 +1,4 @@
-#include "ingest/suspicions.hpp"
+#include "ingest/source/suspicions.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "ingest/frame_choice.hpp"
+#include "ingest/mosaic/frame_choice.hpp"
 
 namespace relevo::ingest {
 namespace {

@@ -1,12 +1,12 @@
 // What an input may reach: no network, no files beside what was named, no sizes that cannot be.
-#include "ingest/trust.hpp"
+#include "ingest/source/trust.hpp"
 
 #include <cstdlib>
 #include <filesystem>
 
 #include <gtest/gtest.h>
 
-#include "ingest/source.hpp"
+#include "ingest/source/source.hpp"
 #include "tests/ingest/importing.hpp"
 
 namespace relevo::ingest {

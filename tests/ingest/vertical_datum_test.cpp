@@ -1,4 +1,4 @@
-#include "ingest/vertical_datum.hpp"
+#include "ingest/reference/vertical_datum.hpp"
 
 #include <array>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "ingest/read_geoid.hpp"
+#include "ingest/reference/read_geoid.hpp"
 #include "tests/ingest/importing.hpp"
 
 namespace relevo::ingest {

@@ -1,4 +1,4 @@
-#include "ingest/vertical.hpp"
+#include "ingest/reference/vertical.hpp"
 
 #include <gtest/gtest.h>
 

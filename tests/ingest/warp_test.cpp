@@ -1,14 +1,14 @@
 // The fast ways of making posts against the plain ones.
-#include "ingest/warp.hpp"
+#include "ingest/resample/warp.hpp"
 
 #include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "ingest/extent_index.hpp"
-#include "ingest/lattice.hpp"
-#include "ingest/longitudes.hpp"
+#include "ingest/mosaic/extent_index.hpp"
+#include "ingest/mosaic/lattice.hpp"
+#include "ingest/mosaic/longitudes.hpp"
 #include "tests/ingest/synthetic_raster.hpp"
 
 namespace relevo::ingest {

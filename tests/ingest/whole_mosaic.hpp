@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "ingest/inputs.hpp"
-#include "ingest/mosaic.hpp"
+#include "ingest/mosaic/mosaic.hpp"
+#include "ingest/source/inputs.hpp"
 #include "lod/scene/block_grid.hpp"
 #include "lod/scene/parallel_blocks.hpp"
 
