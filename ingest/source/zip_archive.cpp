@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <vector>
@@ -48,8 +49,13 @@ std::string fault_of(const std::string& entry) {
     const auto file = open_file(entry);
     if (!file) return "it cannot be opened";
     std::vector<char> piece(std::size_t{1} << 20);
-    while (VSIFReadL(piece.data(), 1, piece.size(), file.get()) == piece.size()) {
-    }
+    std::uint64_t bytes = 0;
+    for (std::size_t count = piece.size(); count == piece.size(); bytes += count)
+        count = VSIFReadL(piece.data(), 1, piece.size(), file.get());
+    VSIStatBufL status{};
+    const bool whole =
+        VSIStatL(entry.c_str(), &status) == 0 && bytes == static_cast<std::uint64_t>(status.st_size);
+    if (messages.empty() && !whole) return "an entry is shorter or longer than the archive says";
     return messages.text();
 }
 

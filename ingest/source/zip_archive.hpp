@@ -11,8 +11,9 @@ namespace relevo::ingest {
 bool is_unreadable_hgt(const std::string& gdal_name);
 
 /// Reads an entry of a zip archive (/vsizip/...), or all of an archive (NAME.zip), to the end and compares
-/// with the checksums in it: GDAL gives out rows of damaged entries without a word, since it seldom comes to
-/// their ends. Other inputs pass. Fails with ErrorKind::input.
+/// with the sizes and checksums in it: GDAL gives out rows of damaged entries without a word, since it seldom
+/// comes to their ends. The checksums of entries that are stored uncompressed are not looked at. Other inputs
+/// pass. Fails with ErrorKind::input.
 Result<void> check_archive(const std::string& input);
 
 }  // namespace relevo::ingest

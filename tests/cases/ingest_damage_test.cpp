@@ -163,8 +163,9 @@ TEST(Damage, ZippedHgtsWithFlippedBits) {
         test::replace(archive, bytes);
         attempt(archive, counts);
         // GDAL may read it, but its checksum tells, unless what was hit says nothing of the tile.
-        const bool same_tile = contents_of(archive.string() + "/N45E007.hgt") == tile;
-        EXPECT_TRUE(same_tile || !check_archive(archive)) << i;
+        const std::string read = contents_of(archive.string() + "/N45E007.hgt");
+        const bool same_tile = read == tile;
+        EXPECT_TRUE(same_tile || read.empty() || !check_archive(archive)) << i << ": " << read.size();
         same += same_tile ? 1 : 0;
     }
     counts.record();
