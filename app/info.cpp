@@ -89,16 +89,16 @@ std::string mebibytes(std::uint64_t bytes) {
     return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / (1 << 20));
 }
 
-void print_source(const lod::SourceInfo& source) {
+/// \param with_notes  those of several sources stand in the scene's notes, together where they are the same
+void print_source(const lod::SourceInfo& source, bool with_notes) {
     fmt::print("source       {}: {} x {} posts, {:.10g} x {:.10g} {}, {}\n", source.name, source.columns,
                source.rows, source.step_x, source.step_y, source.step_unit, source.crs);
     fmt::print("             to WGS 84: {}{}\n", source.operation,
                source.operation_accuracy_m
                    ? fmt::format(", accuracy {:.3g} m as stated by PROJ", *source.operation_accuracy_m)
                    : ", accuracy unknown");
-    for (const std::string& note : {source.operation_note, source.notes}) {
-        if (!note.empty()) fmt::print("             {}\n", note);
-    }
+    if (!source.operation_note.empty()) fmt::print("             {}\n", source.operation_note);
+    if (with_notes && !source.notes.empty()) fmt::print("             {}\n", source.notes);
     fmt::print("             SHA-256 {}\n", source.sha256);
 }
 
@@ -166,7 +166,7 @@ void print_text(const std::string& name, const lod::SceneInfo& info, const Deriv
     print_resampling(info);
     fmt::print("surface      bilinear (measured) and triangles (drawn) differ by at most {:.3g} m\n",
                info.bilinear_mesh_max_m);
-    for (const lod::SourceInfo& source : info.sources) print_source(source);
+    for (const lod::SourceInfo& source : info.sources) print_source(source, info.notes.empty());
     print_seams(info);
     for (const std::string& note : info.notes) fmt::print("note         {}\n", note);
     fmt::print("size         {}, {:.2f} bytes a post (heights {:.2f}, errors and radii {:.2f})\n",
