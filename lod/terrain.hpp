@@ -6,15 +6,13 @@
 
 #include "geo/post_positions.hpp"
 #include "geo/result.hpp"
+#include "lod/error_metric.hpp"
 #include "lod/level_bounds.hpp"
 #include "lod/scene/raster.hpp"
 #include "lod/scene/scene.hpp"
 #include "lod/undulation_grid.hpp"
 
 namespace relevo::lod {
-
-/// Which object-space error drives the refinement.
-enum class ErrorMetric { bounded, incremental };
 
 /// A scene in memory, ready to be meshed: the padded 2^n + 1 grid with heights for every post (voids and
 /// padding are filled for the mesh only) and the metrics of every vertex.
