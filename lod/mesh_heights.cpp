@@ -1,6 +1,7 @@
 #include "lod/mesh_heights.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -78,6 +79,7 @@ int cells(int posts) {
 MeshHeights::MeshHeights(const geo::GridFrame& frame)
     : columns_(frame.columns),
       rows_(frame.rows),
+      levels_(frame.levels()),
       means_(cells(columns_), cells(rows_), kVoid),
       lattice_(cells(columns_), cells(rows_), kVoid),
       last_column_(static_cast<std::size_t>(rows_), kVoid),
@@ -85,6 +87,10 @@ MeshHeights::MeshHeights(const geo::GridFrame& frame)
 
 void MeshHeights::add(int column, int row, const Raster<float>& heights) {
     assert(column % kCell == 0 && row % kCell == 0);
+    if (const std::atomic_ref<bool> whole(whole_); whole.load(std::memory_order_relaxed)) {
+        const auto has_part = [](float H) { return H != std::trunc(H) && !is_void(H); };
+        if (std::ranges::any_of(heights.samples(), has_part)) whole.store(false, std::memory_order_relaxed);
+    }
     for (int y = 0; y < heights.rows(); y += kCell) {
         for (int x = 0; x < heights.columns(); x += kCell) {
             means_.at((column + x) / kCell, (row + y) / kCell) = mean(heights, x, y, kCell);
@@ -108,45 +114,81 @@ void MeshHeights::finish() {
     }
 }
 
-float MeshHeights::fill(int column, int row) const {
-    return between_means(means_, column, row, kCell);
+float MeshHeights::of_void(int column, int row) const {
+    const float H = between_means(means_, column, row, kCell);
+    return whole_ ? std::round(H) : H;
 }
 
-float MeshHeights::padding(int column, int row) const {
+float MeshHeights::of_padding(int column, int row) const {
     const int c = std::min(column, columns_ - 1);
     const int r = std::min(row, rows_ - 1);
     const float H =
         c < column ? last_column_[static_cast<std::size_t>(r)] : last_row_[static_cast<std::size_t>(c)];
-    return is_void(H) ? fill(c, r) : H;
+    return is_void(H) ? of_void(c, r) : H;
+}
+
+float MeshHeights::fill(int column, int row) const {
+    return column < columns_ && row < rows_ ? of_void(column, row) : of_padding(column, row);
+}
+
+Raster<float> MeshHeights::filled(const BlockGrid::Box& box, const Raster<float>& heights) const {
+    Raster<float> all(box.columns, box.rows, kVoid);
+    if (heights.columns() > 0) paste(heights, {}, all);
+    if (std::none_of(all.samples().begin(), all.samples().end(), is_void)) return all;
+    for (int row = box.row % 2; row < box.rows; row += 2) {
+        for (int column = box.column % 2; column < box.columns; column += 2) {
+            float& H = all.at(column, row);
+            if (is_void(H)) H = fill(box.column + column, box.row + row);
+        }
+    }
+    fill_odd_posts({box.column, box.row}, levels_, all);
+    for (int row = 0; row < box.rows; ++row) {
+        // What is left has an end outside.
+        const bool edge_row = row == 0 || row + 1 == box.rows;
+        for (int column = 0; column < box.columns; column += edge_row ? 1 : std::max(box.columns - 1, 1)) {
+            float& H = all.at(column, row);
+            if (is_void(H)) H = fill(box.column + column, box.row + row);
+        }
+    }
+    return all;
 }
 
 float MeshHeights::lattice(int column, int row) const {
-    if (column >= columns_ || row >= rows_) return padding(column, row);
+    if (column >= columns_ || row >= rows_) return of_padding(column, row);
     const float H = lattice_.at(column / kCell, row / kCell);
-    return is_void(H) ? fill(column, row) : H;
+    return is_void(H) ? of_void(column, row) : H;
 }
 
 bool MeshHeights::lattice_is_valid(int column, int row) const {
     return column < columns_ && row < rows_ && !is_void(lattice_.at(column / kCell, row / kCell));
 }
 
+void fill_odd_posts(const GridPoint& first, int levels, Raster<float>& heights) {
+    const auto at = [&](const GridPoint& p) {
+        const int x = p.column - first.column;
+        const int y = p.row - first.row;
+        const bool inside = x >= 0 && y >= 0 && x < heights.columns() && y < heights.rows();
+        return inside ? heights.at(x, y) : kVoid;
+    };
+    for (int row = 0; row < heights.rows(); ++row) {
+        const int y = first.row + row;
+        for (int column = 0; column < heights.columns(); ++column) {
+            float& H = heights.at(column, row);
+            if (!is_void(H)) continue;
+            const int x = first.column + column;
+            if (x % 2 == 0 && y % 2 == 0) continue;
+            const int level = x % 2 != 0 && y % 2 != 0 ? 2 * levels - 2 : 2 * levels - 1;
+            const Diamond d = diamond({x, y}, level, levels);
+            H = 0.5f * (at(d.left) + at(d.right));
+        }
+    }
+}
+
 Raster<float> mesh_heights(const geo::GridFrame& frame, const Raster<float>& heights) {
     MeshHeights fill(frame);
     fill.add(0, 0, heights);
     fill.finish();
-    const int side = frame.padded_side();
-    Raster<float> padded(side, side);
-    for (int row = 0; row < side; ++row) {
-        float* to = padded.row(row);
-        int column = 0;
-        if (row < frame.rows) {
-            const float* from = heights.row(row);
-            for (; column < frame.columns; ++column)
-                to[column] = is_void(from[column]) ? fill.fill(column, row) : from[column];
-        }
-        for (; column < side; ++column) to[column] = fill.padding(column, row);
-    }
-    return padded;
+    return fill.filled({0, 0, frame.padded_side(), frame.padded_side()}, heights);
 }
 
 }  // namespace relevo::lod

@@ -106,6 +106,11 @@ BlockGrid::Box MetricTile::window_of(const Box& tile, int padded_side, int halo)
 }
 
 MetricTile::MetricTile(const MeshGround& ground, const Box& window, const Raster<float>& heights)
+    : MetricTile(ground.positions, ground.undulations, window, heights, ground.fill.filled(window, heights)) {
+}
+
+MetricTile::MetricTile(const geo::PostPositions& positions, const UndulationGrid& undulations,
+                       const Box& window, const Raster<float>& heights, const Raster<float>& filled)
     : window_(window) {
     constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
     const std::size_t count =
@@ -113,22 +118,18 @@ MetricTile::MetricTile(const MeshGround& ground, const Box& window, const Raster
     for (auto* values : {&x_, &y_, &z_}) values->resize(count);
     hole_.assign(count, kNaN);
     std::size_t i = 0;
-    for (int row = window.row; row < window.row + window.rows; ++row) {
-        for (int column = window.column; column < window.column + window.columns; ++column, ++i) {
-            double H = 0;
-            if (column < ground.frame.columns && row < ground.frame.rows) {
-                H = static_cast<double>(heights.at(column - window.column, row - window.row));
-                if (std::isnan(H)) {
-                    H = static_cast<double>(ground.fill.fill(column, row));
-                } else {
-                    hole_[i] = 0;
-                    any_valid_ = true;
-                }
+    for (int y = 0; y < window.rows; ++y) {
+        const int row = window.row + y;
+        for (int x = 0; x < window.columns; ++x, ++i) {
+            const int column = window.column + x;
+            if (x < heights.columns() && y < heights.rows() && !std::isnan(heights.at(x, y))) {
+                hole_[i] = 0;
+                any_valid_ = true;
             } else {
-                H = static_cast<double>(ground.fill.padding(column, row));
+                all_valid_ = false;
             }
-            all_valid_ = all_valid_ && hole_[i] == 0;
-            const glm::dvec3 p = ground.positions.at(column, row, H + ground.undulations.at(column, row));
+            const double H = static_cast<double>(filled.at(x, y));
+            const glm::dvec3 p = positions.at(column, row, H + undulations.at(column, row));
             x_[i] = p.x;
             y_[i] = p.y;
             z_[i] = p.z;

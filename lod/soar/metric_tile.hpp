@@ -58,6 +58,10 @@ class MetricTile {
     /// do), void = NaN
     MetricTile(const MeshGround& ground, const Box& window, const Raster<float>& heights);
 
+    /// \param filled  the same, with heights for voids and padding (MeshHeights)
+    MetricTile(const geo::PostPositions& positions, const UndulationGrid& undulations, const Box& window,
+               const Raster<float>& heights, const Raster<float>& filled);
+
     const Box& window() const { return window_; }
     bool any_valid() const { return any_valid_; }
     bool all_valid() const { return all_valid_; }
