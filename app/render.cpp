@@ -24,6 +24,7 @@ struct RenderFlags {
     std::optional<std::string> background;
     bool measure_error = false;
     ViewFlags view;
+    BudgetFlags budget;  // the number of triangles alone: a still picture takes its time
     Common common;
 };
 
@@ -60,6 +61,7 @@ nlohmann::json to_json(const viewer::ViewState& view, const viewer::PictureReque
                         {"metric", viewer::metric_name(view.metric)},
                         {"morph", view.morph},
                         {"tau_px", view.tau_px},
+                        {"tau_reached_px", figures.tau_reached_px},
                         {"triangles", figures.triangles},
                         {"draw_calls", figures.draw_calls},
                         {"refine_ms", figures.refine_ms},
@@ -74,7 +76,7 @@ nlohmann::json to_json(const viewer::ViewState& view, const viewer::PictureReque
                         {"ocean", nullptr},
                         {"gl_renderer", figures.gl},
                         {"at", to_string(view)}};
-    if (view.method == viewer::Method::full) json["tau_px"] = nullptr;
+    if (view.method == viewer::Method::full) json["tau_px"] = json["tau_reached_px"] = nullptr;
     if (figures.error) {
         json["max_error_px"] = figures.error->max_px;
         json["rms_error_px"] = figures.error->rms_px;
@@ -90,6 +92,9 @@ void print(const viewer::ViewState& view, const viewer::PictureRequest& request,
            const viewer::PictureFigures& figures, const std::string& output) {
     fmt::print("{}: {} x {} pixels, {} triangles, refined in {:.1f} ms, drawn in {:.1f} ms\n", output,
                request.width, request.height, figures.triangles, figures.refine_ms, figures.frame_ms);
+    if (figures.tau_reached_px != view.tau_px)
+        fmt::print("tau {:.3g} pixels, to keep to {} triangles\n", figures.tau_reached_px,
+                   request.max_triangles.value_or(0));
     if (figures.error) {
         fmt::print("measured error: at most {:.3f} px, RMS {:.3f} px\n", figures.error->max_px,
                    figures.error->rms_px);
@@ -107,6 +112,8 @@ Result<void> run(const RenderFlags& flags) {
     if (!size) return size.error();
     const auto samples = read_samples(flags.view, 4);
     if (!samples) return samples.error();
+    const auto budget = read_budget(flags.budget);
+    if (!budget) return budget.error();
     const auto background = read_background(flags.background);
     if (!background) return background.error();
     if (auto known = viewer::check_picture_name(flags.output); !known) return known;
@@ -123,7 +130,8 @@ Result<void> run(const RenderFlags& flags) {
                                          .height = size->height,
                                          .samples = *samples,
                                          .background = *background,
-                                         .measure_error = flags.measure_error};
+                                         .measure_error = flags.measure_error,
+                                         .max_triangles = budget->triangles};
     const auto finished = viewer::draw_picture(*terrain, *heights, *view, request);
     if (!finished) return finished.error();
     if (auto done = viewer::write_picture(finished->picture, flags.output, to_string(*view)); !done)
@@ -149,6 +157,7 @@ void add_render(CLI::App& program, Action& action) {
         ->required()
         ->type_name("PICTURE");
     add_view_flags(*command, flags->view);
+    add_max_triangles_flag(*command, flags->budget);
     command
         ->add_option("--background", flags->background,
                      "A flat colour instead of sky and haze, 0 to 255 each")

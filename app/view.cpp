@@ -1,3 +1,4 @@
+#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -20,6 +21,8 @@ struct WindowFlags {
     std::uint64_t frames = 0;
     double ui_scale = 0;
     std::string screenshot_dir = ".";
+    std::optional<std::string> record, play;
+    BudgetFlags budget;
     ViewFlags view;
     Common common;
 };
@@ -30,6 +33,9 @@ nlohmann::json to_json(const viewer::FlightFigures& figures) {
             {"frame_ms_p99", figures.frame_ms_p99},
             {"refine_ms_median", figures.refine_ms_median},
             {"triangles", figures.triangles},
+            {"tau_reached_px", figures.tau_reached_px},
+            {"frames_within_budget",
+             figures.frames_within_budget ? nlohmann::json(*figures.frames_within_budget) : nullptr},
             {"draw_calls", figures.draw_calls},
             {"width", figures.width},
             {"height", figures.height},
@@ -47,8 +53,18 @@ Result<void> check(const WindowFlags& flags) {
     if (!std::filesystem::is_directory(flags.screenshot_dir, failed)) {
         return wrong(fmt::format("--screenshot-dir {}: there is no such folder", flags.screenshot_dir));
     }
+    if (flags.record) {
+        if (std::filesystem::exists(*flags.record, failed))
+            return wrong(fmt::format("--record {}: it exists already", *flags.record));
+        const auto folder = std::filesystem::absolute(*flags.record, failed).parent_path();
+        if (!std::filesystem::is_directory(folder, failed))
+            return wrong(fmt::format("--record {}: there is no such folder", *flags.record));
+    }
     return {};
 }
+
+/// Ctrl-C while recording closes the window, so that what was flown is kept.
+volatile std::sig_atomic_t interrupted = 0;
 
 Result<void> run(const WindowFlags& flags) {
     viewer::ViewState moving;
@@ -64,6 +80,15 @@ Result<void> run(const WindowFlags& flags) {
         samples = *asked;
     }
     if (auto fine = check(flags); !fine) return fine;
+    const auto budget = read_budget(flags.budget);
+    if (!budget) return budget.error();
+    std::optional<viewer::FlightPath> play;
+    if (flags.play) {
+        auto read = viewer::FlightPath::load(*flags.play);
+        if (!read) return read.error();
+        play = std::move(*read);
+        put(*view, play->keys().front());
+    }
 
     const auto scene = lod::Scene::open(flags.scene);
     if (!scene) return scene.error();
@@ -71,13 +96,16 @@ Result<void> run(const WindowFlags& flags) {
     if (!terrain) return terrain.error();
     const auto heights = viewer::EyeHeight::create(scene->info().vertical.datum);
     if (!heights) return heights.error();
-    place_view(*view, flags.view, *scene, *terrain, *heights, *size);
+    if (!play) place_view(*view, flags.view, *scene, *terrain, *heights, *size);
 
     viewer::FlightOptions options{.width = size->width,
                                   .height = size->height,
                                   .samples = samples,
                                   .forward_m_s = flags.fly_m_s,
                                   .frames = flags.frames,
+                                  .play = std::move(play),
+                                  .record = flags.record.value_or(""),
+                                  .budget = *budget,
                                   .ui_scale = flags.ui_scale,
                                   .screenshot_folder = flags.screenshot_dir};
     // With --json, stdout is one object; what happens on the way goes to stderr.
@@ -86,6 +114,10 @@ Result<void> run(const WindowFlags& flags) {
         fmt::print(events, "{}\n", line);
         std::fflush(events);
     };
+    if (flags.record) {
+        std::signal(SIGINT, [](int) { interrupted = 1; });
+        options.must_close = [] { return interrupted != 0; };
+    }
     const auto figures = viewer::fly(*scene, *terrain, *heights, *view, options);
     if (!figures) return figures.error();
     if (flags.common.json) fmt::print("{}\n", to_json(*figures).dump(2));
@@ -104,6 +136,11 @@ void add_view(CLI::App& program, Action& action) {
     add_view_flags(*command, flags->view);
     command->add_option("--fly", flags->fly_m_s, "Fly ahead by itself, until a key is pressed")
         ->type_name("M_PER_S");
+    command->add_option("--play", flags->play, "Replay a flight, until a key is pressed")
+        ->type_name("FLIGHT");
+    command->add_option("--record", flags->record, "Write what is flown as a flight, when the window closes")
+        ->type_name("FLIGHT");
+    add_budget_flags(*command, flags->budget);
     command->add_option("--frames", flags->frames, "Close after so many frames")->type_name("N");
     command->add_option("--ui-scale", flags->ui_scale, "Size of letters and marks [the screen's]")
         ->type_name("X");

@@ -70,6 +70,28 @@ void add_view_flags(CLI::App& command, ViewFlags& flags) {
     command.add_flag("--wireframe", flags.wireframe, "Draw the mesh's edges, coloured by level");
 }
 
+void add_max_triangles_flag(CLI::App& command, BudgetFlags& flags) {
+    command
+        .add_option("--max-triangles", flags.max_triangles,
+                    "Tau grows up to 64 where a frame would have more triangles")
+        ->type_name("N");
+}
+
+void add_budget_flags(CLI::App& command, BudgetFlags& flags) {
+    command
+        .add_option("--budget", flags.budget_ms,
+                    "Milliseconds a frame may take: tau grows up to 64 to keep to it")
+        ->type_name("MS");
+    add_max_triangles_flag(command, flags);
+}
+
+Result<viewer::BudgetLimits> read_budget(const BudgetFlags& flags) {
+    if (flags.budget_ms && !(*flags.budget_ms >= 1 && *flags.budget_ms <= 1e5))
+        return usage("--budget: 1 to 100000 milliseconds");
+    if (flags.max_triangles && *flags.max_triangles < 100) return usage("--max-triangles: at least 100");
+    return viewer::BudgetLimits{flags.budget_ms, flags.max_triangles};
+}
+
 Result<viewer::ViewState> read_view(const ViewFlags& flags, const viewer::ViewState& base) {
     viewer::ViewState view = base;
     Result<void> done;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -9,6 +10,7 @@
 #include "lod/scene/scene.hpp"
 #include "lod/terrain.hpp"
 #include "viewer/eye_height.hpp"
+#include "viewer/frame_budget.hpp"
 #include "viewer/view_state.hpp"
 
 namespace relevo::app {
@@ -26,6 +28,15 @@ struct ViewFlags {
     std::optional<int> samples;
 };
 void add_view_flags(CLI::App& command, ViewFlags& flags);
+
+/// --budget and --max-triangles: what a frame may cost.
+struct BudgetFlags {
+    std::optional<double> budget_ms;
+    std::optional<std::uint64_t> max_triangles;
+};
+void add_budget_flags(CLI::App& command, BudgetFlags& flags);
+void add_max_triangles_flag(CLI::App& command, BudgetFlags& flags);
+Result<viewer::BudgetLimits> read_budget(const BudgetFlags& flags);
 
 /// What the flags say: `base`, changed by --at, changed by the other flags. Values out of range are usage
 /// errors.

@@ -10,6 +10,7 @@
 #include "viewer/camera.hpp"
 #include "viewer/flight_controls.hpp"
 #include "viewer/flight_keys.hpp"
+#include "viewer/flight_recorder.hpp"
 #include "viewer/frame_times.hpp"
 #include "viewer/gl_check.hpp"
 #include "viewer/hud.hpp"
@@ -44,7 +45,9 @@ class Flight {
           mesher_(terrain),
           controls_(terrain, heights, options.forward_m_s),
           sampler_(scene),
-          view_(start) {
+          budget_(options.budget, start.tau_px),
+          view_(start),
+          playing_(options.play.has_value()) {
         figures_.gl = gl_description();
         const bool software = figures_.gl.find("llvmpipe") != std::string::npos ||
                               figures_.gl.find("softpipe") != std::string::npos;
@@ -53,10 +56,11 @@ class Flight {
 
     Result<FlightFigures> run() {
         while (!window_.should_close()) {
-            const bool idle =
-                !controls_.moving(window_) && options_.frames == 0 && still_frames_ > kSettlingFrames;
+            const bool idle = !playing_ && !controls_.moving(window_) && options_.frames == 0 &&
+                              still_frames_ > kSettlingFrames && budget_rests();
             const Input& input = window_.poll(idle ? 0.5 : 0);
             still_frames_ = input.anything ? 0 : still_frames_ + 1;
+            if (options_.must_close()) break;
             if (idle && !input.anything && !message_expired()) continue;
             const glm::ivec2 size = window_.size();
             if (size.x <= 0 || size.y <= 0) {  // an icon
@@ -70,6 +74,11 @@ class Flight {
         figures_.frame_ms_p99 = frame_times_.quantile(0.99);
         figures_.refine_ms_median = refine_times_.quantile(0.5);
         figures_.view = view_;
+        if (options_.budget.any() && figures_.frames > 0) {
+            figures_.frames_within_budget =
+                static_cast<double>(within_budget_) / static_cast<double>(figures_.frames);
+        }
+        if (auto done = write_record(); !done) return done.error();
         return figures_;
     }
 
@@ -77,11 +86,36 @@ class Flight {
     /// The user interface needs a few frames to come to rest after an event.
     static constexpr int kSettlingFrames = 3;
     static constexpr double kMessageMs = 4000;
+    static constexpr int kBudgetFrames = 100;
 
     bool message_expired() {
         if (message_.empty() || ms_since(message_since_) < kMessageMs) return false;
         message_.clear();
         return true;
+    }
+
+    /// At rest the budget goes on until tau does, too; but noise does not keep it going for ever.
+    bool budget_rests() const {
+        return !options_.budget.any() || budget_.at_rest() || still_frames_ > kBudgetFrames;
+    }
+
+    Result<void> write_record() const {
+        if (options_.record.empty() || figures_.frames == 0) return {};
+        const FlightPath flown = recorder_.finish();
+        if (auto done = write_flight(flown, options_.record); !done) return done;
+        options_.say(fmt::format("flight {}: {:.1f} s, {} keys", options_.record.string(), flown.duration_s(),
+                                 flown.keys().size()));
+        return {};
+    }
+
+    /// Moves the view: by the recorded flight while it goes on, else as the user says.
+    void move(const Input& input, double dt, int width, int height) {
+        if (playing_ && controls_.steered(window_, input)) playing_ = false;
+        if (!playing_) return controls_.steer(view_, window_, input, dt, width, height);
+        if (figures_.frames == 0) flight_start_ = Clock::now();
+        const double flown_s = ms_since(flight_start_) / 1000;
+        put(view_, options_.play->at(options_.play->begin_s() + flown_s));
+        playing_ = flown_s < options_.play->duration_s();
     }
 
     void tell(std::string message) {
@@ -98,14 +132,25 @@ class Flight {
             if (!made) return made.error();
             target_.emplace(std::move(*made));
         }
-        controls_.steer(view_, window_, input, dt, width, height);
+        move(input, dt, width, height);
         if (auto done = read_ground(view_in(width, height), input); !done) return done;
         // After the ground is read: what a key copies is what the cursor, moved in the same moment, is at.
         bool screenshot = false;
         for (const Input::Key& key : input.pressed) screenshot |= press(key, width, height);
+        if (!options_.record.empty()) {
+            if (figures_.frames == 0) record_start_ = start;
+            recorder_.see(view_, std::chrono::duration<double>(start - record_start_).count());
+        }
         const lod::View view = view_in(width, height);
         if (auto done = draw(view); !done) return done;
         draw_hud(view);
+        if (options_.budget.any()) {
+            // Without the wait for the screen, which a frame does not take longer for.
+            if (options_.budget.frame_ms) gl_finish();
+            const double ms = ms_since(start);
+            budget_.add(ms, figures_.triangles);
+            within_budget_ += budget_.holds(ms, figures_.triangles);
+        }
         if (screenshot) {
             if (auto done = take_screenshot(); !done) tell(done.error().message);
         }
@@ -161,7 +206,13 @@ class Flight {
 
     Result<void> draw(const lod::View& view) {
         const auto start = Clock::now();
-        const lod::Mesh& mesh = mesher_.mesh(view, view_);
+        ViewState drawn_state = view_;
+        if (options_.budget.any()) {
+            if (view_.tau_px != finest_) budget_.set_finest(finest_ = view_.tau_px);
+            drawn_state.tau_px = budget_.tau_px();
+        }
+        figures_.tau_reached_px = drawn_state.tau_px;
+        const lod::Mesh& mesh = mesher_.mesh(view, drawn_state);
         refine_times_.add(ms_since(start));
         figures_.triangles = mesh.triangles();
         renderer_.upload(mesh);
@@ -179,12 +230,17 @@ class Flight {
     }
 
     void draw_hud(const lod::View& view) {
+        std::optional<double> reached;
+        if (options_.budget.any()) reached = figures_.tau_reached_px;
         const HudContent content{.view = view_,
                                  .vertical = &scene_.info().vertical,
                                  .cursor = cursor_,
                                  .above_ground_m = controls_.above_ground(view_),
                                  .speed_m_s = controls_.speed(view_),
                                  .triangles = figures_.triangles,
+                                 .tau_reached_px = reached,
+                                 .playing = playing_,
+                                 .recording = !options_.record.empty(),
                                  .frame_ms = frame_times_.shown(),
                                  .middle_distance_m = middle_distance_,
                                  .message = message_,
@@ -261,7 +317,14 @@ class Flight {
     FlightControls controls_;
     lod::HeightSampler sampler_;
     Ruler ruler_;
+    FrameBudget budget_;
+    FlightRecorder recorder_;
     ViewState view_;
+    double finest_ = view_.tau_px;  // tau, as the budget knows it
+    bool playing_;
+    Clock::time_point flight_start_{};
+    Clock::time_point record_start_{};
+    std::uint64_t within_budget_ = 0;
 
     std::optional<lod::PointMeasurement> cursor_;
     std::optional<double> middle_distance_;

@@ -3,12 +3,15 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "geo/result.hpp"
 #include "lod/scene/scene.hpp"
 #include "lod/terrain.hpp"
 #include "viewer/eye_height.hpp"
+#include "viewer/flight_path.hpp"
+#include "viewer/frame_budget.hpp"
 #include "viewer/view_state.hpp"
 
 namespace relevo::viewer {
@@ -16,13 +19,18 @@ namespace relevo::viewer {
 struct FlightOptions {
     int width = 1280;
     int height = 720;
-    int samples = 0;           ///< 1, 4 or 8 a pixel; 0: 4, or 1 where OpenGL runs in software
-    double forward_m_s = 0;    ///< flies ahead by itself until a key is pressed
-    std::uint64_t frames = 0;  ///< closes after so many; 0: when the user does
-    double ui_scale = 0;       ///< of letters and marks; 0: what the screen says
+    int samples = 0;                      ///< 1, 4 or 8 a pixel; 0: 4, or 1 where OpenGL runs in software
+    double forward_m_s = 0;               ///< flies ahead by itself until a key is pressed
+    std::uint64_t frames = 0;             ///< closes after so many; 0: when the user does
+    std::optional<FlightPath> play = {};  ///< replayed until it ends or the user steers or presses a key
+    std::filesystem::path record = {};    ///< where what is flown is written in the end; empty: nowhere
+    BudgetLimits budget = {};             ///< where it has limits, tau adapts to them
+    double ui_scale = 0;                  ///< of letters and marks; 0: what the screen says
     std::filesystem::path screenshot_folder = ".";
     /// Called with each line that the user asked for: copied coordinates, copied views, screenshots.
     std::function<void(const std::string&)> say = [](const std::string&) {};
+    /// Asked before each frame, twice a second at rest: is the window to be closed?
+    std::function<bool()> must_close = [] { return false; };
 };
 
 struct FlightFigures {
@@ -37,7 +45,9 @@ struct FlightFigures {
     int height = 0;
     int samples = 1;
     std::string gl;
-    ViewState view;  ///< of the last frame
+    ViewState view;                              ///< of the last frame
+    double tau_reached_px = 0;                   ///< of the last frame: the view's own unless a budget acts
+    std::optional<double> frames_within_budget;  ///< part of the frames that kept to it, 0 to 1
 };
 
 /// Opens a window on a scene and returns when it is closed.

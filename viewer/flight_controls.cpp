@@ -62,8 +62,17 @@ double FlightControls::speed(const ViewState& view) const {
 }
 
 bool FlightControls::moving(const Window& window) const {
-    return forward_m_s_ != 0 || ahead_axis(window) != 0 || right_axis(window) != 0 || up_axis(window) != 0 ||
+    return forward_m_s_ != 0 || keys_held(window);
+}
+
+bool FlightControls::keys_held(const Window& window) const {
+    return ahead_axis(window) != 0 || right_axis(window) != 0 || up_axis(window) != 0 ||
            turn_axis(window) != 0;
+}
+
+bool FlightControls::steered(const Window& window, const Input& input) const {
+    return keys_held(window) || !input.pressed.empty() || input.drag_left != glm::dvec2(0) ||
+           input.drag_right != glm::dvec2(0);
 }
 
 void FlightControls::keep_above_ground(ViewState& view) const {

@@ -19,6 +19,9 @@ class FlightControls {
     /// Changes the view for what happened in dt seconds. \param height  of the picture, pixels
     void steer(ViewState& view, const Window& window, const Input& input, double dt, int width, int height);
 
+    /// Did the user steer or press a key?
+    bool steered(const Window& window, const Input& input) const;
+
     /// Is anything going on that changes the view without a new event?
     bool moving(const Window& window) const;
 
@@ -31,6 +34,7 @@ class FlightControls {
     static constexpr double kClearanceM = 2;
 
   private:
+    bool keys_held(const Window& window) const;
     Pose pose_of(const ViewState& view) const;
     void put(ViewState& view, const Pose& pose) const;
     void keep_above_ground(ViewState& view) const;

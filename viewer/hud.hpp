@@ -20,6 +20,9 @@ struct HudContent {
     std::optional<double> above_ground_m;         ///< of the eye
     double speed_m_s = 0;
     std::uint64_t triangles = 0;
+    std::optional<double> tau_reached_px;  ///< where a budget chooses it
+    bool playing = false;                  ///< a recorded flight
+    bool recording = false;
     double frame_ms = 0;
     std::optional<double>
         middle_distance_m;  ///< to the ground in the middle of the picture, for the scale bar

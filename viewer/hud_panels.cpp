@@ -56,6 +56,11 @@ std::string eye_text(geo::OrthometricHeight H, const lod::VerticalReference& ver
     return fmt::format("H {:.1f} m {}", H.m, vertical.name);
 }
 
+std::string tau_text(const HudContent& content) {
+    if (!content.tau_reached_px) return fmt::format("tau {:.3g} px", content.view.tau_px);
+    return fmt::format("tau {:.2f} px of {:.3g} by budget", *content.tau_reached_px, content.view.tau_px);
+}
+
 float view_panel(const HudContent& content) {
     const ViewState& view = content.view;
     Panel panel("view", Corner::upper_left);
@@ -69,8 +74,10 @@ float view_panel(const HudContent& content) {
     panel.line(fmt::format("{} triangles", content.triangles));
     panel.line(view.method == Method::full
                    ? std::string("full data")
-                   : fmt::format("tau {:.3g} px, morph {}", view.tau_px, view.morph ? "on" : "off"));
+                   : fmt::format("{}, morph {}", tau_text(content), view.morph ? "on" : "off"));
     panel.line(fmt::format("{:.1f} ms a frame", content.frame_ms));
+    if (content.playing) panel.line("recorded flight; any key stops it");
+    if (content.recording) panel.line("recording");
     if (view.exaggeration != 1) panel.line(fmt::format("heights x {:.3g}", view.exaggeration));
     if (view.layer != Layer::hypsometric) panel.line(std::string(to_string(view.layer)));
     return panel.bottom();

@@ -6,6 +6,7 @@
 
 #include "lod/soar/pick.hpp"
 #include "viewer/camera.hpp"
+#include "viewer/frame_budget.hpp"
 #include "viewer/gl_check.hpp"
 #include "viewer/gl_context_egl.hpp"
 #include "viewer/mesher.hpp"
@@ -54,7 +55,7 @@ bool ground_must_show(const lod::Terrain& terrain, const lod::View& view, const 
 }
 
 Result<FinishedPicture> draw_picture(const lod::Terrain& terrain, const EyeHeight& heights,
-                                     const ViewState& state, const PictureRequest& request) {
+                                     const ViewState& asked, const PictureRequest& request) {
     const auto context = OffscreenContext::create();
     if (!context) return context.error();
     auto renderer = Renderer::create(terrain);
@@ -64,6 +65,7 @@ Result<FinishedPicture> draw_picture(const lod::Terrain& terrain, const EyeHeigh
         RenderTarget::create(std::min(request.width, side), std::min(request.height, side), request.samples);
     if (!target) return target.error();
 
+    ViewState state = asked;
     const lod::View view(camera_of(state, heights, request.width, request.height));
     const DrawSettings settings{.layer = state.layer,
                                 .wireframe = state.wireframe,
@@ -77,6 +79,13 @@ Result<FinishedPicture> draw_picture(const lod::Terrain& terrain, const EyeHeigh
     // Once for nothing: what is measured below shall not be the making of buffers and the compiling of
     // shaders.
     Mesher mesher(terrain);
+    if (request.max_triangles && state.method != Method::full) {
+        state.tau_px = tau_for_triangles(*request.max_triangles, asked.tau_px, [&](double tau_px) {
+            state.tau_px = tau_px;
+            return mesher.mesh(view, state).triangles();
+        });
+    }
+    figures.tau_reached_px = state.tau_px;
     renderer->upload(mesher.mesh(view, state));
     if (auto done = renderer->draw(view, settings, *target, {}, false); !done) return done.error();
     gl_finish();

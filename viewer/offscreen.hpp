@@ -20,11 +20,14 @@ struct PictureRequest {
     int samples = 4;                                      ///< 1, 4 or 8 a pixel
     std::optional<std::array<float, 3>> background = {};  ///< flat, 0 to 1, instead of sky and haze
     bool measure_error = false;
+    std::optional<std::uint64_t> max_triangles =
+        {};  ///< tau grows, up to FrameBudget's coarsest, to keep to it
 };
 inline constexpr int kLargestPicture = 16384;
 
 struct PictureFigures {
     std::uint64_t triangles = 0;
+    double tau_reached_px = 0;  ///< the view's own unless max_triangles made it grow
     int draw_calls = 0;
     double refine_ms = 0;  ///< of the mesh, buffers warm
     double frame_ms = 0;   ///< refinement, upload and drawing to the last pixel, programs compiled

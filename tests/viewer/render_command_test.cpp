@@ -32,8 +32,9 @@ TEST_F(RenderCommand, ReportsAsOneJsonObject) {
     ASSERT_EQ(run.status, 0) << run.err;
     EXPECT_EQ(run.err, "");
     const auto json = nlohmann::json::parse(run.out);
-    for (const char* key : {"lod", "tau_px", "triangles", "draw_calls", "refine_ms", "frame_ms",
-                            "max_error_px", "rms_error_px", "resident_mib", "gl_renderer", "at", "ocean"}) {
+    for (const char* key :
+         {"lod", "tau_px", "tau_reached_px", "triangles", "draw_calls", "refine_ms", "frame_ms",
+          "max_error_px", "rms_error_px", "resident_mib", "gl_renderer", "at", "ocean"}) {
         EXPECT_TRUE(json.contains(key)) << key;
     }
     EXPECT_EQ(json["lod"], "soar");
@@ -53,6 +54,21 @@ TEST_F(RenderCommand, WithoutMeasuringTheErrorIsNull) {
     EXPECT_TRUE(json["rms_error_px"].is_null());
     EXPECT_EQ(json["lod"], "full");
     EXPECT_EQ(json["triangles"], 2 * 128 * 128);
+}
+
+TEST_F(RenderCommand, TauGrowsToANumberOfTriangles) {
+    const auto run = render("--json --tau 0.25 --max-triangles 700 --measure-error");
+    ASSERT_EQ(run.status, 0) << run.err;
+    const auto json = nlohmann::json::parse(run.out);
+    EXPECT_EQ(json["tau_px"], 0.25);
+    EXPECT_GT(json["tau_reached_px"], 0.25);
+    EXPECT_LE(json["triangles"], 700);
+    EXPECT_GT(json["triangles"], 500);
+    EXPECT_GT(json["max_error_px"], 0.25);
+    EXPECT_LE(json["max_error_px"], json["tau_reached_px"]);
+    const auto enough = render("--json --tau 4 --max-triangles 700000");
+    ASSERT_EQ(enough.status, 0) << enough.err;
+    EXPECT_EQ(nlohmann::json::parse(enough.out)["tau_reached_px"], 4);
 }
 
 TEST_F(RenderCommand, TheViewStringGivesTheSamePicture) {
@@ -84,7 +100,7 @@ TEST_F(RenderCommand, RefusesWhatMakesNoSense) {
     for (const char* flags :
          {"--fov 180", "--eye 91,0,0", "--eye here", "--layer imagery", "--lod lstr", "--metric best",
           "--morph maybe", "--sun noon", "--samples 3", "--background 0,0,256", "--at 1,2", "--size 0x10",
-          "--size 10x16385", "--unknown"}) {
+          "--size 10x16385", "--max-triangles 5", "--unknown"}) {
         const auto run = relevo("render " + scene_ + " -o " + picture_ + " " + flags);
         EXPECT_EQ(run.status, 2) << flags << ": " << run.err;
         EXPECT_FALSE(run.err.empty()) << flags;

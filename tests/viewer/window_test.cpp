@@ -1,6 +1,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <regex>
 #include <thread>
 
@@ -10,6 +11,7 @@
 #include "tests/app/run_program.hpp"
 #include "tests/viewer/desktop.hpp"
 #include "tests/viewer/scene_for_pictures.hpp"
+#include "viewer/flight_path.hpp"
 
 namespace relevo::test {
 namespace {
@@ -179,6 +181,61 @@ TEST_F(WindowTest, FliesByItselfAndClosesAfterSomeFrames) {
     EXPECT_GE(json["frame_ms_p99"], json["frame_ms_median"]);
     EXPECT_GT(json["triangles"], 10);
     EXPECT_GT(std::stod(json["at"].get<std::string>()), 35.982222) << "it flew north";
+}
+
+TEST_F(WindowTest, RecordsWhatIsFlownAndReplaysIt) {
+    const fs::path file = folder_ / "flown.flight";
+    open(fmt::format("{} --record {}", kMap, file.string()));
+    desktop_.xdotool("keydown w sleep 1 keyup w");
+    press("v");
+    const std::string end = said("view ([^\n]+)");
+    press("ctrl+q");
+    ASSERT_EQ(desktop_.wait_for_exit(program_), 0) << contents(folder_ / "err");
+    said("flight [^\n]*flown.flight: [0-9.]+ s, [0-9]+ keys");
+    const auto flown = viewer::FlightPath::load(file);
+    ASSERT_TRUE(flown) << flown.error().message;
+    EXPECT_GE(flown->keys().size(), 5u);
+    EXPECT_NEAR(flown->keys().front().place.lat.value, 35.982222, 1e-8);
+    EXPECT_NEAR(flown->keys().back().place.lat.value, std::stod(end), 1e-7);
+
+    // To its end, and then at rest there; what was recorded stays.
+    open(fmt::format("--play {} --frames 100000", file.string()));
+    std::this_thread::sleep_for(std::chrono::duration<double>(flown->duration_s() + 0.5));
+    press("v");
+    const std::string replayed = said("view ([^\n]+)");
+    EXPECT_NEAR(std::stod(replayed), flown->keys().back().place.lat.value, 1e-7);
+    EXPECT_NE(replayed.find("/pitch=-90"), std::string::npos) << replayed;
+    EXPECT_NE(replayed.find("/fov=30"), std::string::npos) << replayed;
+    press("ctrl+q");
+    EXPECT_EQ(desktop_.wait_for_exit(program_), 0) << contents(folder_ / "err");
+    const auto refused = relevo(fmt::format("view {} --record {}", scene_, file.string()));
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_NE(refused.err.find("exists"), std::string::npos) << refused.err;
+}
+
+TEST_F(WindowTest, AKeyStopsAReplay) {
+    const fs::path file = folder_ / "long.flight";
+    std::ofstream(file) << "relevo-flight 1\n0 35.97 138 6000 0 -90 0 30\n600 35.99 138.02 6000 0 -90 0 30\n";
+    open(fmt::format("--play {}", file.string()));
+    press("v");
+    const std::string stopped = said("view ([^\n]+)");
+    EXPECT_GT(std::stod(stopped), 35.97);
+    EXPECT_LT(std::stod(stopped), 35.98);
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    press("v");
+    EXPECT_EQ(said("view [^\n]+\nview ([^\n]+)"), stopped);
+}
+
+TEST_F(WindowTest, TauGrowsToABudget) {
+    open(std::string("--max-triangles 500 --tau 0.25 --frames 60 --json ") + kMap);
+    ASSERT_EQ(desktop_.wait_for_exit(program_), 0) << contents(folder_ / "err");
+    const auto json = nlohmann::json::parse(contents(folder_ / "out"));
+    EXPECT_GT(json["tau_reached_px"], 0.25);
+    EXPECT_LE(json["triangles"], 500);
+    EXPECT_GT(json["triangles"], 300);
+    EXPECT_GT(json["frames_within_budget"], 0.3);
+    EXPECT_LT(json["frames_within_budget"], 1) << "the first frames had the user's tau";
+    EXPECT_NE(json["at"].get<std::string>().find("/tau=0.25/"), std::string::npos) << "the user's own";
 }
 
 TEST_F(WindowTest, ClosingTheWindowEndsTheProgramWell) {
