@@ -35,20 +35,25 @@ class PostPositions {
         return {r.cos_lat * c.cos_lon, r.cos_lat * c.sin_lon, r.sin_lat};
     }
 
-    /// What a polar grid's positions come from; none for a geographic one.
-    const PolarPositions* polar() const { return polar_ ? &*polar_ : nullptr; }
-
-  private:
+    /// What a row and a column of a geographic grid contribute: see at(). For loops over many posts.
     struct Row {
-        double from_axis;  // distance of the ellipsoid from the earth's axis at this latitude, m
+        double from_axis;  ///< distance of the ellipsoid from the earth's axis at this latitude, m
         double cos_lat;
-        double z;  // of the ellipsoid, m
+        double z;  ///< of the ellipsoid, m
         double sin_lat;
     };
     struct Column {
         double cos_lon;
         double sin_lon;
     };
+    /// \pre !polar()
+    const Row& row(int i) const { return rows_[static_cast<std::size_t>(i)]; }
+    const Column& column(int i) const { return columns_[static_cast<std::size_t>(i)]; }
+
+    /// What a polar grid's positions come from; none for a geographic one.
+    const PolarPositions* polar() const { return polar_ ? &*polar_ : nullptr; }
+
+  private:
     std::optional<PolarPositions> polar_;
     std::vector<Row> rows_;
     std::vector<Column> columns_;

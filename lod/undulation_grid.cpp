@@ -92,6 +92,27 @@ double UndulationGrid::at(int column, int row) const {
     return at(geo::GridPosition{static_cast<double>(column), static_cast<double>(row)});
 }
 
+void UndulationGrid::add_row(int column, int row, int count, double* heights_m) const {
+    if (nodes_.columns() == 0) {
+        for (int i = 0; geoid_ && i < count; ++i) heights_m[i] += at(column + i, row);
+        return;
+    }
+    const double y = row * cells_per_post_;
+    const int node_row = std::clamp(static_cast<int>(y), 0, nodes_.rows() - 2);
+    const double v = y - node_row;
+    for (int i = 0; i < count;) {
+        const int cell = std::min((column + i) >> shift_, nodes_.columns() - 2);
+        const int cell_end = cell == nodes_.columns() - 2 ? column + count : (cell + 1) << shift_;
+        const double upper[] = {nodes_.at(cell, node_row), nodes_.at(cell + 1, node_row)};
+        const double lower[] = {nodes_.at(cell, node_row + 1), nodes_.at(cell + 1, node_row + 1)};
+        for (const int end = std::min(cell_end - column, count); i < end; ++i) {
+            const double u = (column + i) * cells_per_post_ - cell;
+            heights_m[i] +=
+                (1 - v) * ((1 - u) * upper[0] + u * upper[1]) + v * ((1 - u) * lower[0] + u * lower[1]);
+        }
+    }
+}
+
 double UndulationGrid::at(geo::GridPosition place) const {
     if (nodes_.columns() == 0) return geoid_ ? undulation(*geoid_, frame_, place) : 0;
     const double x = place.column * cells_per_post_;

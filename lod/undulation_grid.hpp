@@ -26,6 +26,9 @@ class UndulationGrid {
     /// N at a post, metres. \pre 0 <= column, row < padded_side
     double at(int column, int row) const;
 
+    /// Adds N to the heights of consecutive posts of a row: the same as at() of each, sooner.
+    void add_row(int column, int row, int count, double* heights_m) const;
+
     /// N at a place between posts, metres. \pre inside the padded grid
     double at(geo::GridPosition place) const;
 

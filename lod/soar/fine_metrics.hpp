@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "lod/scene/raster.hpp"
 #include "lod/soar/metric_tile.hpp"
 
@@ -19,9 +21,47 @@ inline constexpr double kRadiusMarginM = 1e-6;
 /// scanned, and the codes of the bounded one stay 0.
 enum class ObjectErrors { both, incremental };
 
-/// Nested codes of the fine vertices (half size at most `half_size`, itself at most kFineHalfSize) of a
-/// tile's window, and 0 elsewhere; indices are relative to the window. They are right for the vertices of the
-/// tile and up to kHalo - 3 half_size posts around it.
+/// Nested metrics of the fine vertices in a tile's window: those with half size at most `half_size`, itself
+/// at most kFineHalfSize. They are right for the vertices of the tile and up to kHalo - 3 half_size posts
+/// around it.
+class FineMetrics {
+  public:
+    /// Memory is used again. \pre the tile outlives what is asked below
+    void begin(const MetricTile& tile, int levels, int half_size, ObjectErrors errors);
+
+    /// Builds all that the tile's placed rows allow.
+    void build_placed();
+
+    /// Codes of the posts in a box, 0 of those that are no fine vertices. \pre in the window
+    MetricRasters codes(const BlockGrid::Box& box) const;
+
+    // Of one fine vertex, metres, rounded up to what has a code.
+
+    float bounded(const GridPoint& v) const { return values_of_bounded(v)[at(v)]; }
+    float incremental(const GridPoint& v) const { return incremental_[at(v)]; }
+    float radius(const GridPoint& v) const { return radius_[at(v)]; }  ///< 0: no valid post below
+
+  private:
+    std::size_t at(const GridPoint& v) const { return static_cast<std::size_t>(tile_->index(v)); }
+    /// With s = 1 both errors are the same: no post lies between a vertex, its children and their edges.
+    const std::vector<float>& values_of_bounded(const GridPoint& v) const {
+        return (v.column | v.row) % 2 == 0 ? bounded_ : incremental_;
+    }
+    void build_row(int row, int level, int s);
+    void build_lanes(const GridPoint& first, int level, int s);
+    void finish_last_level_lanes(const GridPoint& first, const DiamondShape& shape);
+    void cut(const BlockGrid::Box& box, const std::vector<float>& values, bool of_odd_posts,
+             Raster<std::uint16_t>& into) const;
+
+    const MetricTile* tile_ = nullptr;
+    int coarse_ = 1;  // posts at multiples of this are no fine vertices
+    int levels_ = 0;
+    bool with_bounded_ = false;
+    std::vector<int> built_end_;                         // of the rows, by level
+    std::vector<float> bounded_, incremental_, radius_;  // laid out as the tile
+};
+
+/// The codes of the whole window.
 MetricRasters fine_metrics(const MetricTile& tile, int levels, int half_size,
                            ObjectErrors errors = ObjectErrors::both);
 

@@ -1,98 +1,41 @@
 #include "lod/soar/metric_tile.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
-#include <cstring>
 #include <limits>
-
-#include <glm/geometric.hpp>
 
 namespace relevo::lod {
 
 namespace {
 
-/// A triangle's surface as a linear function of column and row: ECEF(corner 0) + columns * along + rows *
-/// down.
-struct TrianglePlane {
-    glm::dvec3 origin;
-    glm::dvec3 along;
-    glm::dvec3 down;
-};
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
-TrianglePlane plane_through(const Triangle& t) {
-    const double x1 = t.corner[1].column - t.corner[0].column;
-    const double y1 = t.corner[1].row - t.corner[0].row;
-    const double x2 = t.corner[2].column - t.corner[0].column;
-    const double y2 = t.corner[2].row - t.corner[0].row;
-    const double determinant = x1 * y2 - x2 * y1;
-    const glm::dvec3 p1 = t.position[1] - t.position[0];
-    const glm::dvec3 p2 = t.position[2] - t.position[0];
-    return {t.position[0], (p1 * y2 - p2 * y1) / determinant, (p2 * x1 - p1 * x2) / determinant};
+/// How many posts of a row have a height.
+int valid_in(const float* heights, int count) {
+    int valid = 0;
+    for (int i = 0; i < count; ++i) valid += heights[i] == heights[i] ? 1 : 0;
+    return valid;
 }
 
-/// The columns in which a row meets a triangle. The sides have slopes 0, 1, -1 or none, so that these are
-/// whole.
-struct Columns {
-    int first = std::numeric_limits<int>::max();
-    int last = -1;
-};
-
-Columns columns_in_row(const GridPoint (&corner)[3], int row) {
-    Columns columns;
-    for (int k = 0; k < 3; ++k) {
-        const GridPoint& a = corner[k];
-        const GridPoint& b = corner[(k + 1) % 3];
-        if (row < std::min(a.row, b.row) || row > std::max(a.row, b.row)) continue;
-        const auto meet = [&](int column) {
-            columns.first = std::min(columns.first, column);
-            columns.last = std::max(columns.last, column);
-        };
-        if (a.row == b.row) {
-            meet(a.column);
-            meet(b.column);
-        } else {
-            meet(a.column + (row - a.row) * ((b.column - a.column) / (b.row - a.row)));
-        }
+/// From columns to classes.
+void deal(const double* by_column, int lanes, double* by_class) {
+    for (int c = 0; c < MetricTile::kClasses; ++c) {
+        for (int k = 0; k < lanes; ++k) by_class[c * lanes + k] = by_column[k * MetricTile::kClasses + c];
     }
-    return columns;
 }
 
-// Four doubles; GCC makes two SSE2 operations of each where there is no AVX. Neither fuses a product and a
-// sum, so that results are the same bits everywhere.
-using Four = double __attribute__((vector_size(32)));
-
-// The same wherever it lies in memory. A typedef: in a `using`, clang passes over the alignment, and then
-// loads from wherever it is as if it lay at a multiple of 32.
-typedef double FourAnywhere __attribute__((vector_size(32), aligned(8), may_alias));
-
-/// Largest squared distance of `count` posts from start, start + along, ...; a hole is NaN and never larger.
-/// 1.5 ns a post (AVX2): nearly all of the time that metrics take is spent here.
-[[gnu::target_clones("avx2", "default")]] double row_deviation(const double* x, const double* y,
-                                                               const double* z, const double* hole, int count,
-                                                               const glm::dvec3& start,
-                                                               const glm::dvec3& along, double max_m2) {
-    int i = 0;
-    if (count >= 4) {
-        Four most = {max_m2, max_m2, max_m2, max_m2};
-        Four step = {0, 1, 2, 3};
-        for (; i + 4 <= count; i += 4, step += 4.0) {
-            const Four dx = start.x + step * along.x - *reinterpret_cast<const FourAnywhere*>(x + i);
-            const Four dy = start.y + step * along.y - *reinterpret_cast<const FourAnywhere*>(y + i);
-            const Four dz = start.z + step * along.z - *reinterpret_cast<const FourAnywhere*>(z + i);
-            const Four m2 = dx * dx + dy * dy + dz * dz + *reinterpret_cast<const FourAnywhere*>(hole + i);
-            most = m2 > most ? m2 : most;
-        }
-        for (int k = 0; k < 4; ++k) max_m2 = most[k] > max_m2 ? most[k] : max_m2;
+[[gnu::target_clones("avx2", "default")]] void place_geographic(const geo::PostPositions::Row& row,
+                                                                const double* cos_lon, const double* sin_lon,
+                                                                const double* height, int count, double* x,
+                                                                double* y, double* z) {
+#pragma GCC ivdep
+    for (int i = 0; i < count; ++i) {
+        const double from_axis = row.from_axis + height[i] * row.cos_lat;
+        x[i] = from_axis * cos_lon[i];
+        y[i] = from_axis * sin_lon[i];
+        z[i] = row.z + height[i] * row.sin_lat;
     }
-    for (; i < count; ++i) {
-        const double step = i;
-        const double dx = start.x + step * along.x - x[i];
-        const double dy = start.y + step * along.y - y[i];
-        const double dz = start.z + step * along.z - z[i];
-        const double m2 = dx * dx + dy * dy + dz * dz + hole[i];
-        max_m2 = m2 > max_m2 ? m2 : max_m2;
-    }
-    return max_m2;
 }
 
 }  // namespace
@@ -105,59 +48,104 @@ BlockGrid::Box MetricTile::window_of(const Box& tile, int padded_side, int halo)
     return {left, top, right - left, bottom - top};
 }
 
-MetricTile::MetricTile(const MeshGround& ground, const Box& window, const Raster<float>& heights)
-    : MetricTile(ground.positions, ground.undulations, window, heights, ground.fill.filled(window, heights)) {
+void MetricTile::count_valid(const Box& window, const Raster<float>& heights) {
+    long long valid = 0;
+    for (int row = 0; row < heights.rows(); ++row) valid += valid_in(heights.row(row), heights.columns());
+    any_valid_ = valid > 0;
+    all_valid_ = valid == static_cast<long long>(window.columns) * window.rows;
 }
 
-MetricTile::MetricTile(const geo::PostPositions& positions, const UndulationGrid& undulations,
-                       const Box& window, const Raster<float>& heights, const Raster<float>& filled)
-    : window_(window) {
-    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+void MetricTile::begin(const MeshGround& ground, const Box& window, const Raster<float>& heights) {
+    count_valid(window, heights);
+    if (any_valid_ && !all_valid_) own_filled_ = ground.fill.filled(window, heights);
+    begin(ground.positions, ground.undulations, window, heights, all_valid_ ? heights : own_filled_);
+}
+
+void MetricTile::begin(const geo::PostPositions& positions, const UndulationGrid& undulations,
+                       const Box& window, const Raster<float>& heights, const Raster<float>& filled) {
+    assert(window.columns <= kMostColumns);
+    count_valid(window, heights);
+    window_ = window;
+    placed_end_ = window.row;
+    positions_ = &positions;
+    undulations_ = &undulations;
+    heights_ = &heights;
+    filled_ = &filled;
+    // Lanes begin at a multiple of the classes that leaves room for the reach of diamonds.
+    constexpr int reach = DiamondPosts::kReach;
+    first_column_ = (window.column - reach + kClasses) / kClasses * kClasses - kClasses;
+    const int columns = window.column + window.columns + reach - first_column_;
+    lanes_ = (columns + 4 * kClasses - 1) / (4 * kClasses) * 4;
+
+    const auto stride = static_cast<std::size_t>(row_samples());
     const std::size_t count =
-        static_cast<std::size_t>(window.columns) * static_cast<std::size_t>(window.rows);
+        stride * static_cast<std::size_t>(window.rows + 1) + 2 * static_cast<std::size_t>(kSlack);
     for (auto* values : {&x_, &y_, &z_}) values->resize(count);
-    hole_.assign(count, kNaN);
-    std::size_t i = 0;
-    for (int y = 0; y < window.rows; ++y) {
-        const int row = window.row + y;
-        for (int x = 0; x < window.columns; ++x, ++i) {
-            const int column = window.column + x;
-            if (x < heights.columns() && y < heights.rows() && !std::isnan(heights.at(x, y))) {
-                hole_[i] = 0;
-                any_valid_ = true;
-            } else {
-                all_valid_ = false;
-            }
-            const double H = static_cast<double>(filled.at(x, y));
-            const glm::dvec3 p = positions.at(column, row, H + undulations.at(column, row));
-            x_[i] = p.x;
-            y_[i] = p.y;
-            z_[i] = p.z;
-        }
+    for (auto* values : {&height_, &by_class_, &cos_lon_, &sin_lon_}) values->resize(stride);
+
+    if (!any_valid_) return;
+    if (!all_valid_) hole_.resize(count);
+
+    if (!positions_->polar()) {
+        const auto table = [&](double geo::PostPositions::Column::*value, std::vector<double>& into) {
+            std::fill(height_.begin(), height_.end(), kNothing);
+            for (int i = 0; i < window.columns; ++i)
+                height_[static_cast<std::size_t>(window.column - first_column_ + i)] =
+                    positions_->column(window.column + i).*value;
+            deal(height_.data(), lanes_, into.data());
+        };
+        table(&geo::PostPositions::Column::cos_lon, cos_lon_);
+        table(&geo::PostPositions::Column::sin_lon, sin_lon_);
+    }
+    std::fill(height_.begin(), height_.end(), kNothing);
+
+    // The row that stands for all beyond the window, and the slack.
+    const std::ptrdiff_t beyond = row_begin(window.row - 1);
+    for (auto* values : {&x_, &y_, &z_, &hole_}) {
+        if (values == &hole_ && all_valid_) continue;
+        std::fill_n(values->begin(), kSlack, kNothing);
+        std::fill(values->begin() + beyond, values->end(), kNothing);
     }
 }
 
-Deviation MetricTile::deviation(const Triangle& triangle, const Box& box) const {
-    const auto [top, bottom] =
-        std::minmax({triangle.corner[0].row, triangle.corner[1].row, triangle.corner[2].row});
-    const int first_row = std::max(top, box.row);
-    const int last_row = std::min(bottom, box.row + box.rows - 1);
-    Deviation result;
-    if (first_row > last_row) return result;
-    const TrianglePlane plane = plane_through(triangle);
-    for (int row = first_row; row <= last_row; ++row) {
-        auto [first, last] = columns_in_row(triangle.corner, row);
-        first = std::max(first, box.column);
-        last = std::min(last, box.column + box.columns - 1);
-        if (first > last) continue;
-        const glm::dvec3 start = plane.origin +
-                                 static_cast<double>(row - triangle.corner[0].row) * plane.down +
-                                 static_cast<double>(first - triangle.corner[0].column) * plane.along;
-        const std::size_t i = index(first, row);
-        result.max_m2 = row_deviation(&x_[i], &y_[i], &z_[i], &hole_[i], last - first + 1, start, plane.along,
-                                      result.max_m2);
+void MetricTile::place_until(int end) {
+    for (; any_valid_ && placed_end_ < end; ++placed_end_) place_row(placed_end_);
+}
+
+void MetricTile::place_row(int row) {
+    const int first = window_.column - first_column_;
+    const float* H = filled_->row(row - window_.row);
+    double* h = height_.data() + first;
+    for (int i = 0; i < window_.columns; ++i) h[i] = static_cast<double>(H[i]);
+    undulations_->add_row(window_.column, row, window_.columns, h);
+    deal(height_.data(), lanes_, by_class_.data());
+    place_lanes(row);
+    if (all_valid_) return;
+
+    const int y = row - window_.row;
+    double* hole = hole_.data() + row_begin(row);
+    std::fill_n(hole, row_samples(), kNothing);
+    for (int i = 0; i < heights_->columns() && y < heights_->rows(); ++i) {
+        if (!std::isnan(heights_->at(i, y))) hole[column_offset(window_.column + i)] = 0;
     }
-    return result;
+}
+
+void MetricTile::place_lanes(int row) {
+    const auto begin = static_cast<std::size_t>(row_begin(row));
+    if (const geo::PolarPositions* polar = positions_->polar()) {
+        for (int c = 0; c < kClasses; ++c) {
+            for (int k = 0; k < lanes_; ++k) {
+                const auto i = static_cast<std::size_t>(c * lanes_ + k);
+                const glm::dvec3 p = polar->at(first_column_ + k * kClasses + c, row, by_class_[i]);
+                x_[begin + i] = p.x;
+                y_[begin + i] = p.y;
+                z_[begin + i] = p.z;
+            }
+        }
+        return;
+    }
+    place_geographic(positions_->row(row), cos_lon_.data(), sin_lon_.data(), by_class_.data(),
+                     static_cast<int>(row_samples()), &x_[begin], &y_[begin], &z_[begin]);
 }
 
 }  // namespace relevo::lod

@@ -1,14 +1,19 @@
 #include "lod/soar/metrics.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <mutex>
+#include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
 #include "geo/post_positions.hpp"
 #include "lod/scene/metric_code.hpp"
+#include "lod/soar/coarse_scan.hpp"
 #include "lod/soar/fine_metrics.hpp"
 
 namespace relevo::lod {
@@ -42,71 +47,159 @@ int aligned(int value, int size) {
 
 }  // namespace
 
+/// What a tile is computed in. It is large, and made once for each thread.
+struct MetricBuilder::Workspace {
+    MetricTile posts;
+    FineMetrics fine;
+    CoarseScan coarse;
+};
+
+class MetricBuilder::Workspaces {
+  public:
+    std::unique_ptr<Workspace> take() {
+        const std::lock_guard lock(mutex_);
+        if (free_.empty()) return std::make_unique<Workspace>();
+        auto one = std::move(free_.back());
+        free_.pop_back();
+        return one;
+    }
+    void give_back(std::unique_ptr<Workspace> one) {
+        const std::lock_guard lock(mutex_);
+        free_.push_back(std::move(one));
+    }
+
+  private:
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<Workspace>> free_;
+};
+
 MetricBuilder::MetricBuilder(const MeshGround& ground, ObjectErrors errors)
     : ground_(ground),
       errors_(errors),
       levels_(ground.frame.levels()),
-      lattice_levels_(std::max(levels_ - 3, 0)) {
+      lattice_levels_(std::max(levels_ - 3, 0)),
+      workspaces_(std::make_unique<Workspaces>()) {
     static_assert(kSpacing == 1 << 3);
     const int side = (ground.frame.padded_side() - 1) / kSpacing + 1;
     for (auto* raster : {&lattice_.bounded, &lattice_.incremental, &lattice_.radius})
         *raster = Raster<std::uint16_t>(side, side);
 }
 
+MetricBuilder::~MetricBuilder() = default;
+
 MetricRasters MetricBuilder::add_tile(const BlockGrid::Box& tile, const Raster<float>& heights) {
-    const MetricTile posts(ground_, MetricTile::window_of(tile, ground_.frame.padded_side()), heights);
+    auto work = workspaces_->take();
+    const BlockGrid::Box window = MetricTile::window_of(tile, ground_.frame.padded_side());
+    work->posts.begin(ground_, window, heights);
     MetricRasters codes{Raster<std::uint16_t>(tile.columns, tile.rows),
                         Raster<std::uint16_t>(tile.columns, tile.rows),
                         Raster<std::uint16_t>(tile.columns, tile.rows)};
-    if (!posts.any_valid()) return codes;
-    const MetricRasters fine = fine_metrics(posts, levels_, kFineHalfSize, errors_);
-    join_fine(posts, tile, fine);
-    if (errors_ == ObjectErrors::both) scan_coarse(posts, tile);
-
-    const int dx = tile.column - posts.window().column;
-    const int dy = tile.row - posts.window().row;
-    const auto cut = [&](const Raster<std::uint16_t>& from, Raster<std::uint16_t>& to) {
-        for (int row = 0; row < tile.rows; ++row)
-            std::copy_n(from.row(row + dy) + dx, tile.columns, to.row(row));
-    };
-    cut(fine.bounded, codes.bounded);
-    cut(fine.incremental, codes.incremental);
-    cut(fine.radius, codes.radius);
+    if (work->posts.any_valid()) {
+        const bool scanned = errors_ == ObjectErrors::both && lattice_levels_ > 0;
+        const int end = window.row + window.rows;
+        work->fine.begin(work->posts, levels_, kFineHalfSize, errors_);
+        int row = tile.row;  // of the lattice, to be scanned
+        // All that looks at every post follows its placing closely, while it is in the processor's cache.
+        while (work->posts.placed_end() < end) {
+            work->posts.place_until(std::min(work->posts.placed_end() + 2 * kSpacing, end));
+            work->fine.build_placed();
+            const int placed = work->posts.placed_end();
+            for (; scanned && row < tile.row + tile.rows && (row + kSpacing < placed || placed == end);
+                 row += kSpacing)
+                scan_finest_coarse(*work, tile, row);
+        }
+        join_fine(*work, tile);
+        if (scanned) scan_coarse(*work, tile);
+        codes = work->fine.codes(tile);
+    }
+    workspaces_->give_back(std::move(work));
     return codes;
 }
 
 /// The coarsest of the fine vertices are the children of the finest on the lattice.
-void MetricBuilder::join_fine(const MetricTile& posts, const BlockGrid::Box& tile,
-                              const MetricRasters& fine) {
+void MetricBuilder::join_fine(const Workspace& work, const BlockGrid::Box& tile) {
     const int level = 2 * (levels_ - 3);
     if (level <= 0) return;
-    const BlockGrid::Box& window = posts.window();
-    for (int row = tile.row; row < tile.row + tile.rows; ++row) {
-        for_each_vertex_in_row(levels_, level, row, [&](const GridPoint& v) {
-            if (v.column < tile.column || v.column >= tile.column + tile.columns) return;
-            const int x = v.column - window.column;
-            const int y = v.row - window.row;
-            const std::uint16_t radius = fine.radius.at(x, y);
-            if (radius == 0) return;
+    for (int row = tile.row + kFineHalfSize; row < tile.row + tile.rows; row += kSpacing) {
+        for (int column = tile.column + kFineHalfSize; column < tile.column + tile.columns;
+             column += kSpacing) {
+            const GridPoint v{column, row};
+            const float radius = work.fine.radius(v);
+            if (radius <= 0) continue;
+            const std::uint16_t bounded = errors_ == ObjectErrors::both
+                                              ? encode_up(static_cast<double>(work.fine.bounded(v)))
+                                              : std::uint16_t{0};
+            const std::uint16_t incremental = encode_up(static_cast<double>(work.fine.incremental(v)));
+            const glm::dvec3 here = work.posts.position(v);
             for (const GridPoint& parent : diamond(v, level, levels_).apexes) {
                 const GridPoint p = to_lattice(parent);
-                join(lattice_.bounded.at(p.column, p.row), fine.bounded.at(x, y));
-                join(lattice_.incremental.at(p.column, p.row), fine.incremental.at(x, y));
+                join(lattice_.bounded.at(p.column, p.row), bounded);
+                join(lattice_.incremental.at(p.column, p.row), incremental);
                 const double reach =
-                    glm::distance(position(p), posts.position(v)) + static_cast<double>(decode(radius));
+                    glm::distance(work.posts.position(parent), here) + static_cast<double>(radius);
                 join(lattice_.radius.at(p.column, p.row), encode_up(reach + kRadiusMarginM));
             }
-        });
+        }
     }
 }
 
-/// The tile's posts against all triangles of coarse vertices that they lie in.
-void MetricBuilder::scan_coarse(const MetricTile& posts, const BlockGrid::Box& tile) {
+void MetricBuilder::join_error(const GridPoint& v, double m) {
+    const GridPoint p = to_lattice(v);
+    join(lattice_.bounded.at(p.column, p.row), error_code(m));
+}
+
+/// The vertices of the two finest levels on the lattice in one row: their diamonds lie in the tile and its
+/// halo.
+void MetricBuilder::scan_finest_coarse(const Workspace& work, const BlockGrid::Box& tile, int row) {
+    constexpr int s = kSpacing;
+    static_assert(s <= DiamondPosts::kReach && s <= MetricTile::kHalo && 4 * s <= MetricTile::kClasses);
+    const MetricTile& posts = work.posts;
+    std::array<double, kMostLanes> m2;
+    const bool odd_row = (row / s) % 2 == 1;
+    for (int c = 0; c < MetricTile::kClasses; c += s) {
+        const bool odd_column = (c / s) % 2 == 1;
+        if (!odd_row && !odd_column) continue;  // coarser
+        const int level = 2 * lattice_levels_ - (odd_row && odd_column ? 2 : 1);
+        const GridPoint first{posts.first_column() + c, row};
+        diamond_posts(first, level, s)
+            .deviation2(posts.at(0), posts.holes(0), posts.offsets(first, s), posts.lanes(), m2.data());
+        for (int k = 0; k < posts.lanes(); ++k) {
+            const int column = first.column + k * MetricTile::kClasses;
+            const double own = m2[static_cast<std::size_t>(k)];
+            if (own > 0 && column >= tile.column && column < tile.column + tile.columns)
+                join_error({column, row}, std::sqrt(own));
+        }
+    }
+}
+
+/// What is known already of a coarse vertex's nested error: at least its children's. That the other tiles may
+/// have added to it changes no result, as what is added last is a maximum of all.
+double MetricBuilder::known_error(const GridPoint& v, int level) {
+    const GridPoint p = to_lattice(v);
+    std::uint16_t& known = lattice_.bounded.at(p.column, p.row);
+    for (const GridPoint& c : children(p, level, lattice_levels_))
+        join(known, std::atomic_ref<std::uint16_t>(lattice_.bounded.at(c.column, c.row))
+                        .load(std::memory_order_relaxed));
+    return static_cast<double>(decode(std::atomic_ref<std::uint16_t>(known).load(std::memory_order_relaxed)));
+}
+
+/// The tile's posts against all larger triangles that they lie in.
+void MetricBuilder::scan_coarse(Workspace& work, const BlockGrid::Box& tile) {
     // Borders included: the next tile's first column and row are in the halo.
     const int last = 1 << levels_;
     const BlockGrid::Box box{tile.column, tile.row, std::min(tile.columns + 1, last + 1 - tile.column),
                              std::min(tile.rows + 1, last + 1 - tile.row)};
-    for (int level = 0; level < 2 * lattice_levels_; ++level) {
+    work.coarse.prepare(work.posts, work.fine, box);
+    for (int level = 2 * lattice_levels_ - 3; level >= 0; --level) {
+        const auto scan = [&](const GridPoint& v, const GridPoint& a, const GridPoint& b,
+                              const GridPoint& c) {
+            Triangle triangle{{a, b, c}, {}};
+            for (std::size_t k = 0; k < 3; ++k)
+                triangle.position[k] = ground_.lattice_position(triangle.corner[k]);
+            const double known = known_error(v, level);
+            const double own = work.coarse.largest_distance(triangle, known);
+            if (own > known) join_error(v, own);
+        };
         const int s = kSpacing * half_size(lattice_levels_, level);
         const int size = 2 * s;  // of the squares that the level's triangles are halves or quarters of
         for (int y = aligned(tile.row, size); y < std::min(tile.row + tile.rows, last); y += size) {
@@ -115,29 +208,18 @@ void MetricBuilder::scan_coarse(const MetricTile& posts, const BlockGrid::Box& t
                 const GridPoint centre{x + s, y + s};
                 if (level % 2 == 0) {
                     const Diamond d = diamond(centre, level, levels_);
-                    for (const GridPoint& apex : d.apexes)
-                        join_scan(posts, box, centre, {{d.left, d.right, apex}, {}});
+                    for (const GridPoint& apex : d.apexes) scan(centre, d.left, d.right, apex);
                 } else {
                     const GridPoint corner[4] = {{x, y}, {x + size, y}, {x + size, y + size}, {x, y + size}};
                     for (int k = 0; k < 4; ++k) {
                         const GridPoint& a = corner[k];
                         const GridPoint& b = corner[(k + 1) % 4];
-                        join_scan(posts, box, midpoint(a, b), {{a, b, centre}, {}});
+                        scan(midpoint(a, b), a, b, centre);
                     }
                 }
             }
         }
     }
-}
-
-void MetricBuilder::join_scan(const MetricTile& posts, const BlockGrid::Box& box, const GridPoint& v,
-                              const Triangle& triangle) {
-    Triangle placed = triangle;
-    for (int k = 0; k < 3; ++k) placed.position[k] = ground_.lattice_position(placed.corner[k]);
-    const Deviation deviation = posts.deviation(placed, box);
-    if (!deviation.any_post()) return;
-    const GridPoint p = to_lattice(v);
-    join(lattice_.bounded.at(p.column, p.row), error_code(std::sqrt(deviation.max_m2)));
 }
 
 glm::dvec3 MetricBuilder::position(const GridPoint& lattice_point) const {

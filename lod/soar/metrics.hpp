@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "geo/frame.hpp"
 #include "lod/scene/block_grid.hpp"
 #include "lod/scene/raster.hpp"
@@ -24,6 +26,7 @@ class MetricBuilder {
   public:
     /// \pre the ground outlives this, its fill is finished
     MetricBuilder(const MeshGround& ground, ObjectErrors errors);
+    ~MetricBuilder();
 
     /// Codes of the fine vertices of a tile (0 at posts of the lattice). May be called from several threads.
     /// \param heights  H of the data in MetricTile::window_of(tile), void = NaN
@@ -33,10 +36,14 @@ class MetricBuilder {
     MetricRasters finish();
 
   private:
-    void scan_coarse(const MetricTile& posts, const BlockGrid::Box& tile);
-    void join_scan(const MetricTile& posts, const BlockGrid::Box& box, const GridPoint& v,
-                   const Triangle& triangle);
-    void join_fine(const MetricTile& posts, const BlockGrid::Box& tile, const MetricRasters& fine);
+    struct Workspace;
+    class Workspaces;
+
+    void join_fine(const Workspace& work, const BlockGrid::Box& tile);
+    void scan_finest_coarse(const Workspace& work, const BlockGrid::Box& tile, int row);
+    void scan_coarse(Workspace& work, const BlockGrid::Box& tile);
+    void join_error(const GridPoint& v, double m);
+    double known_error(const GridPoint& v, int level);
     void finish_vertex(const GridPoint& v, int level);
     glm::dvec3 position(const GridPoint& lattice_point) const;
 
@@ -46,6 +53,7 @@ class MetricBuilder {
     int lattice_levels_;  // of the hierarchy of the lattice, which is that of the grid without its fine
                           // levels
     MetricRasters lattice_;
+    std::unique_ptr<Workspaces> workspaces_;
 };
 
 /// The same for a grid in memory: the codes of the whole padded grid.
