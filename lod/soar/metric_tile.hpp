@@ -72,8 +72,8 @@ class MetricTile {
     void begin(const geo::PostPositions& positions, const UndulationGrid& undulations, const Box& window,
                const Raster<float>& heights, const Raster<float>& filled);
 
-    /// Places the rows before `end`, so that work can follow while they are in the processor's cache. Of those
-    /// after it nothing below may be asked.
+    /// Places the rows before `end`, so that work can follow while they are in the processor's cache. Of
+    /// those after it nothing below may be asked.
     void place_until(int end);
     int placed_end() const { return placed_end_; }
 

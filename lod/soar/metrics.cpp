@@ -91,10 +91,11 @@ MetricRasters MetricBuilder::add_tile(const BlockGrid::Box& tile, const Raster<f
     auto work = workspaces_->take();
     const BlockGrid::Box window = MetricTile::window_of(tile, ground_.frame.padded_side());
     work->posts.begin(ground_, window, heights);
-    MetricRasters codes{Raster<std::uint16_t>(tile.columns, tile.rows),
-                        Raster<std::uint16_t>(tile.columns, tile.rows),
-                        Raster<std::uint16_t>(tile.columns, tile.rows)};
-    if (work->posts.any_valid()) {
+    MetricRasters codes;
+    if (!work->posts.any_valid()) {
+        const Raster<std::uint16_t> none(tile.columns, tile.rows);
+        codes = {none, none, none};
+    } else {
         const bool scanned = errors_ == ObjectErrors::both && lattice_levels_ > 0;
         const int end = window.row + window.rows;
         work->fine.begin(work->posts, levels_, kFineHalfSize, errors_);
