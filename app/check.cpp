@@ -89,7 +89,9 @@ Result<void> check_views(const lod::Scene& scene, const CheckOptions& options, J
         double done = 0;
         for (const double tau : {0.5, 1.0, 2.0, 4.0}) {
             for (const bool morph : {false, true}) {
-                const lod::ViewsCheck check = lod::check_views(*terrain, metric, cameras, tau, morph);
+                const auto checked = lod::check_views(*terrain, metric, cameras, tau, morph);
+                if (!checked) return checked.error();
+                const lod::ViewsCheck& check = *checked;
                 report["results"].push_back(to_json(check));
                 if (!options.json) {
                     fmt::print("{:>12} {:>6} {:>7} {:>10.0f} {:>10.3f} {:>10.3f} {:>6} {:>6}\n",

@@ -18,6 +18,21 @@ class PostPositions {
   public:
     explicit PostPositions(const GridFrame& frame);
 
+    /// What all posts of a row, or of a column, of a geographic grid have in common: at() is made of these.
+    struct Row {
+        double from_axis;  ///< distance of the ellipsoid from the earth's axis at this latitude, m
+        double cos_lat;
+        double z;  ///< of the ellipsoid, m
+        double sin_lat;
+    };
+    struct Column {
+        double cos_lon;
+        double sin_lon;
+    };
+    /// \pre the grid is geographic
+    const Row& row(int row) const { return rows_[static_cast<std::size_t>(row)]; }
+    const Column& column(int column) const { return columns_[static_cast<std::size_t>(column)]; }
+
     /// ECEF, metres. \pre 0 <= column, row < padded_side
     glm::dvec3 at(int column, int row, double h_m) const {
         if (polar_) return polar_->at(column, row, h_m);
@@ -34,21 +49,6 @@ class PostPositions {
         const Column& c = columns_[static_cast<std::size_t>(column)];
         return {r.cos_lat * c.cos_lon, r.cos_lat * c.sin_lon, r.sin_lat};
     }
-
-    /// What a row and a column of a geographic grid contribute: see at(). For loops over many posts.
-    struct Row {
-        double from_axis;  ///< distance of the ellipsoid from the earth's axis at this latitude, m
-        double cos_lat;
-        double z;  ///< of the ellipsoid, m
-        double sin_lat;
-    };
-    struct Column {
-        double cos_lon;
-        double sin_lon;
-    };
-    /// \pre !polar()
-    const Row& row(int i) const { return rows_[static_cast<std::size_t>(i)]; }
-    const Column& column(int i) const { return columns_[static_cast<std::size_t>(i)]; }
 
     /// What a polar grid's positions come from; none for a geographic one.
     const PolarPositions* polar() const { return polar_ ? &*polar_ : nullptr; }

@@ -4,8 +4,11 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <memory>
 #include <mutex>
+#include <new>
 #include <numeric>
 #include <vector>
 
@@ -27,35 +30,33 @@ struct Corner {
 using Triangle = std::array<Corner, 3>;
 
 /// The truth, by ways of its own: heights as imported, positions by the exact path, no tables, metrics or
-/// spheres.
+/// spheres. One a thread: it keeps the posts that it read last.
 class Truth {
   public:
     Truth(const Terrain& terrain, const View& view, double exaggeration)
-        : terrain_(terrain), eye_(view.eye()), exaggeration_(exaggeration) {}
+        : terrain_(terrain), posts_(terrain.posts()), eye_(view.eye()), exaggeration_(exaggeration) {}
 
     int columns() const { return terrain_.frame().columns; }
     int rows() const { return terrain_.frame().rows; }
-    bool is_valid(int column, int row) const { return !std::isnan(terrain_.heights().at(column, row)); }
+    bool is_valid(int column, int row) { return posts_.is_valid(column, row); }
+
+    bool is_valid_cell(int column, int row) { return posts_.is_valid_cell(column, row); }
 
     /// Offset of a valid post from the eye.
-    glm::dvec3 post(int column, int row) const {
+    glm::dvec3 post(int column, int row) {
         const geo::GridPosition place{static_cast<double>(column), static_cast<double>(row)};
-        const double H = static_cast<double>(terrain_.heights().at(column, row));
+        const double H = static_cast<double>(posts_.H(column, row));
         const double N = terrain_.undulations().at(place);
         return terrain_.frame().ecef(place, {N + exaggeration_ * H}) - eye_;
     }
 
     /// Offset of the full-resolution surface between posts; nothing in a void or outside the data.
-    std::optional<glm::dvec3> between_posts(double x, double y) const {
+    std::optional<glm::dvec3> between_posts(double x, double y) {
         const int column = std::min(static_cast<int>(std::floor(x)), columns() - 2);
         const int row = std::min(static_cast<int>(std::floor(y)), rows() - 2);
         if (!(x >= 0 && y >= 0 && x <= columns() - 1 && y <= rows() - 1) || column < 0 || row < 0)
             return std::nullopt;
-        for (const int dy : {0, 1}) {
-            for (const int dx : {0, 1}) {
-                if (!is_valid(column + dx, row + dy)) return std::nullopt;
-            }
-        }
+        if (!posts_.is_valid_cell(column, row)) return std::nullopt;
         const double u = x - column;
         const double v = y - row;
         const glm::dvec3 north_west = post(column, row);
@@ -74,6 +75,7 @@ class Truth {
 
   private:
     const Terrain& terrain_;
+    TruePosts::Reader posts_;
     geo::Ecef eye_;
     double exaggeration_;
 };
@@ -87,7 +89,7 @@ double pixel_distance(const View& view, const glm::dvec2& pixel, const glm::dvec
 class Oracle {
   public:
     Oracle(const Terrain& terrain, const View& view, const Mesh& mesh, double exaggeration)
-        : view_(view), mesh_(mesh), truth_(terrain, view, exaggeration) {}
+        : terrain_(terrain), view_(view), mesh_(mesh), exaggeration_(exaggeration) {}
 
     std::optional<MeasuredError> measure() {
         MeasuredError result;
@@ -123,49 +125,80 @@ class Oracle {
         errors_.insert(errors_.end(), errors.begin(), errors.end());
     }
 
+    Truth truth() const { return {terrain_, view_, exaggeration_}; }
+    int columns() const { return terrain_.frame().columns; }
+    int rows() const { return terrain_.frame().rows; }
+
+    /// A byte a post, of which those in view alone take memory.
+    using Marks = std::unique_ptr<std::uint8_t[], decltype(&std::free)>;
+
     void measure_posts(MeasuredError& result) {
-        std::vector<std::uint8_t> covered(static_cast<std::size_t>(truth_.columns()) *
-                                          static_cast<std::size_t>(truth_.rows()));
+        const Marks covered(static_cast<std::uint8_t*>(std::calloc(static_cast<std::size_t>(columns()),
+                                                                   static_cast<std::size_t>(rows()))),
+                            &std::free);
+        if (!covered) throw std::bad_alloc();
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh_.triangles(), 64), [&](const auto& range) {
+            Truth truth = this->truth();
             std::vector<double> errors;
             for (std::size_t k = range.begin(); k < range.end(); ++k)
-                compare_posts(triangle(k), covered, errors);
+                compare_posts(triangle(k), truth, covered, errors);
             take(errors);
         });
         result.posts = errors_.size();
 
         std::atomic<std::uint64_t> uncovered = 0;
-        tbb::parallel_for(0, truth_.rows(), [&](int row) {
-            for (int column = 0; column < truth_.columns(); ++column) {
-                if (covered[post_index(column, row)] == 0 && touches_ground(column, row) &&
-                    view_.sees(truth_.post(column, row))) {
-                    ++uncovered;
+        constexpr int kSide = Pyramid::kBlockCells;
+        const int across = (columns() + kSide - 1) / kSide;
+        const int down = (rows() + kSide - 1) / kSide;
+        tbb::parallel_for(0, across * down, [&](int block) {
+            const int left = block % across * kSide;
+            const int top = block / across * kSide;
+            const int right = std::min(left + kSide, columns());
+            const int bottom = std::min(top + kSide, rows());
+            if (!may_be_seen(left, top, right, bottom)) return;
+            Truth truth = this->truth();
+            for (int row = top; row < bottom; ++row) {
+                for (int column = left; column < right; ++column) {
+                    if (covered[post_index(column, row)] == 0 && touches_ground(truth, column, row) &&
+                        view_.sees(truth.post(column, row))) {
+                        ++uncovered;
+                    }
                 }
             }
         });
         result.uncovered_posts = uncovered;
     }
 
+    /// May posts in a box of the grid be in view? No, where all that is within 20 km of heights is not.
+    bool may_be_seen(int left, int top, int right, int bottom) const {
+        const auto at = [&](int column, int row) {
+            return terrain_.frame().ecef({static_cast<double>(column), static_cast<double>(row)}, {0}) -
+                   view_.eye();
+        };
+        const glm::dvec3 middle = at((left + right) / 2, (top + bottom) / 2);
+        double radius = 0;
+        for (const int column : {left, right})
+            for (const int row : {top, bottom})
+                radius = std::max(radius, glm::distance(middle, at(column, row)));
+        radius = 1.1 * radius + 20e3 * std::max(exaggeration_, 1.0);
+        for (const glm::dvec3& plane : view_.side_planes()) {
+            if (glm::dot(plane, middle) > radius) return false;
+        }
+        return true;
+    }
+
     std::size_t post_index(int column, int row) const {
-        return static_cast<std::size_t>(row) * static_cast<std::size_t>(truth_.columns()) +
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns()) +
                static_cast<std::size_t>(column);
     }
 
     /// Is the post a corner of a cell that is drawn? A post alone among voids has no surface.
-    bool touches_ground(int column, int row) const {
-        for (const int y : {row - 1, row}) {
-            for (const int x : {column - 1, column}) {
-                if (x < 0 || y < 0 || x + 1 >= truth_.columns() || y + 1 >= truth_.rows()) continue;
-                if (truth_.is_valid(x, y) && truth_.is_valid(x + 1, y) && truth_.is_valid(x, y + 1) &&
-                    truth_.is_valid(x + 1, y + 1)) {
-                    return true;
-                }
-            }
-        }
-        return false;
+    static bool touches_ground(Truth& truth, int column, int row) {
+        return truth.is_valid_cell(column - 1, row - 1) || truth.is_valid_cell(column, row - 1) ||
+               truth.is_valid_cell(column - 1, row) || truth.is_valid_cell(column, row);
     }
 
-    void compare_posts(const Triangle& t, std::vector<std::uint8_t>& covered,
+    void compare_posts(const Triangle& t, Truth& truth, const Marks& covered,
                        std::vector<double>& errors) const {
         const auto [left, right] = std::minmax({t[0].column, t[1].column, t[2].column});
         const auto [top, bottom] = std::minmax({t[0].row, t[1].row, t[2].row});
@@ -173,18 +206,18 @@ class Oracle {
             return (b.column - a.column) * (y - a.row) - (b.row - a.row) * (x - a.column);
         };
         const double area = cross(t[0], t[1], t[2].column, t[2].row);
-        for (int row = top; row <= std::min(bottom, truth_.rows() - 1); ++row) {
-            for (int column = left; column <= std::min(right, truth_.columns() - 1); ++column) {
+        for (int row = top; row <= std::min(bottom, rows() - 1); ++row) {
+            for (int column = left; column <= std::min(right, columns() - 1); ++column) {
                 const double b0 = cross(t[1], t[2], column, row) / area;
                 const double b1 = cross(t[2], t[0], column, row) / area;
                 const double b2 = cross(t[0], t[1], column, row) / area;
-                if (b0 < 0 || b1 < 0 || b2 < 0 || !truth_.is_valid(column, row)) continue;
+                if (b0 < 0 || b1 < 0 || b2 < 0 || !truth.is_valid(column, row)) continue;
                 std::atomic_ref<std::uint8_t> mark(covered[post_index(column, row)]);
                 if (mark.exchange(1) != 0) continue;  // a neighbour has it: the surfaces meet there
-                const glm::dvec3 truth = truth_.post(column, row);
-                if (!view_.sees(truth)) continue;
+                const glm::dvec3 exact = truth.post(column, row);
+                if (!view_.sees(exact)) continue;
                 const glm::dvec3 drawn = b0 * t[0].drawn + b1 * t[1].drawn + b2 * t[2].drawn;
-                errors.push_back(pixel_distance(view_, view_.pixel(truth), drawn));
+                errors.push_back(pixel_distance(view_, view_.pixel(exact), drawn));
             }
         }
     }
@@ -207,6 +240,7 @@ class Oracle {
 
         const std::size_t before = errors_.size();
         tbb::parallel_for(tbb::blocked_range<int>(0, height, 16), [&](const auto& rows) {
+            Truth truth = this->truth();
             std::vector<double> errors;
             for (int y = rows.begin(); y < rows.end(); ++y) {
                 for (int x = 0; x < width; ++x) {
@@ -214,8 +248,8 @@ class Oracle {
                         picture[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                                 static_cast<std::size_t>(x)];
                     if (sample.depth == kInfinity) continue;
-                    if (const auto truth = truth_.between_posts(sample.x, sample.y)) {
-                        errors.push_back(pixel_distance(view_, {x + 0.5, y + 0.5}, *truth));
+                    if (const auto exact = truth.between_posts(sample.x, sample.y)) {
+                        errors.push_back(pixel_distance(view_, {x + 0.5, y + 0.5}, *exact));
                     }
                 }
             }
@@ -307,9 +341,10 @@ class Oracle {
         }
     }
 
+    const Terrain& terrain_;
     const View& view_;
     const Mesh& mesh_;
-    const Truth truth_;
+    const double exaggeration_;
     std::mutex mutex_;
     std::vector<double> errors_;
 };

@@ -10,8 +10,7 @@ namespace relevo::lod {
 
 namespace {
 
-GridPoint random_valid_post(const Terrain& terrain, std::mt19937_64& random) {
-    const geo::GridFrame& frame = terrain.frame();
+GridPoint random_valid_post(const geo::GridFrame& frame, TruePosts::Reader& posts, std::mt19937_64& random) {
     const auto columns = static_cast<std::uint64_t>(frame.columns);
     const auto rows = static_cast<std::uint64_t>(frame.rows);
     // Plain remainders: the standard's distributions differ between libraries.
@@ -19,7 +18,7 @@ GridPoint random_valid_post(const Terrain& terrain, std::mt19937_64& random) {
     for (std::uint64_t k = 0; k < columns * rows; ++k) {
         const std::uint64_t i = (start + k) % (columns * rows);
         const GridPoint post{static_cast<int>(i % columns), static_cast<int>(i / columns)};
-        if (terrain.is_valid(post.column, post.row)) return post;
+        if (posts.is_valid(post.column, post.row)) return post;
     }
     return {};
 }
@@ -39,12 +38,13 @@ std::vector<Camera> sample_views(const Terrain& terrain, int count, std::uint64_
     const std::array<double, 6> heights_above_ground{2, 30, 300, 3000, 0.3 * size, 1.5 * size};
 
     std::mt19937_64 random(seed);
+    TruePosts::Reader posts(terrain.posts());
     std::vector<Camera> views;
     for (int k = 0; k < count; ++k) {
-        const GridPoint post = random_valid_post(terrain, random);
+        const GridPoint post = random_valid_post(terrain.frame(), posts, random);
         const geo::GridPosition place{static_cast<double>(post.column), static_cast<double>(post.row)};
         const geo::LatLon at = terrain.frame().lat_lon(place);
-        const double ground = static_cast<double>(terrain.post(post.column, post.row).H) +
+        const double ground = static_cast<double>(posts.H(post.column, post.row)) +
                               terrain.undulations().at(post.column, post.row);
         const std::size_t i = static_cast<std::size_t>(k);
         const double above = heights_above_ground[(i / pitches.size() + i) % heights_above_ground.size()];

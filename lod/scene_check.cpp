@@ -38,8 +38,8 @@ std::uint64_t count_nesting_faults(const geo::GridFrame& frame, const MetricRast
     return faults;
 }
 
-ViewsCheck check_views(const Terrain& terrain, ErrorMetric metric, std::span<const Camera> cameras,
-                       double tau_px, bool morph) {
+Result<ViewsCheck> check_views(const Terrain& terrain, ErrorMetric metric, std::span<const Camera> cameras,
+                               double tau_px, bool morph) {
     ViewsCheck result;
     result.metric = metric;
     result.morph = morph;
@@ -48,7 +48,9 @@ ViewsCheck check_views(const Terrain& terrain, ErrorMetric metric, std::span<con
     double sum2 = 0;
     for (const Camera& camera : cameras) {
         const View view(camera);
-        const Mesh& mesh = refiner.refine(view, {.tau_px = tau_px, .morph = morph});
+        const auto whole = refiner.refine_whole(view, {.tau_px = tau_px, .morph = morph});
+        if (!whole) return whole.error();
+        const Mesh& mesh = **whole;
         ++result.views;
         result.triangles_mean += static_cast<double>(mesh.triangles()) / static_cast<double>(cameras.size());
         result.t_vertices += count_t_vertices(mesh);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 
+#include "geo/result.hpp"
 #include "lod/sample_views.hpp"
 #include "lod/terrain.hpp"
 
@@ -27,7 +28,7 @@ struct ViewsCheck {
 };
 
 /// Refines the terrain for each camera and measures the result with the oracle.
-ViewsCheck check_views(const Terrain& terrain, ErrorMetric metric, std::span<const Camera> cameras,
-                       double tau_px, bool morph);
+Result<ViewsCheck> check_views(const Terrain& terrain, ErrorMetric metric, std::span<const Camera> cameras,
+                               double tau_px, bool morph);
 
 }  // namespace relevo::lod

@@ -1,8 +1,10 @@
 #include "lod/terrain.hpp"
 
+#include <cassert>
+#include <limits>
 #include <utility>
 
-#include "lod/mesh_heights.hpp"
+#include "lod/pyramid/memory_pyramid.hpp"
 #include "lod/scene/block_grid.hpp"
 #include "lod/scene/parallel_blocks.hpp"
 #include "lod/soar/stored_metrics.hpp"
@@ -34,39 +36,46 @@ Result<Raster<std::uint8_t>> read_sea(const Scene& scene, const Raster<float>& h
 
 }  // namespace
 
+Terrain::Parts::Parts(std::shared_ptr<const Pyramid> of, UndulationGrid N)
+    : pyramid(std::move(of)),
+      positions(pyramid->frame()),
+      undulations(std::move(N)),
+      bounds(lod::level_bounds(pyramid->frame(), undulations)),
+      posts(*pyramid) {}
+
+Result<Terrain> Terrain::open(std::shared_ptr<const Pyramid> pyramid, UndulationGrid undulations,
+                              ErrorMetric metric, const TileStoreOptions& options) {
+    auto parts = std::make_unique<Parts>(std::move(pyramid), std::move(undulations));
+    auto tiles = TileStore::open(*parts->pyramid, parts->positions, parts->undulations, metric, options);
+    if (!tiles) return tiles.error();
+    parts->tiles = std::move(*tiles);
+    return Terrain(std::move(parts));
+}
+
 Result<Terrain> Terrain::load(const Scene& scene, ErrorMetric metric) {
     auto heights = scene.read_all_heights();
     if (!heights) return heights.error();
     UndulationGrid undulations = scene.undulations();
-    const auto metrics = load_metrics(scene, *heights, undulations);
+    auto metrics = load_metrics(scene, *heights, undulations);
     if (!metrics) return metrics.error();
-    auto sea = read_sea(scene, *heights);
+    const auto sea = read_sea(scene, *heights);
     if (!sea) return sea.error();
-    return Terrain(scene.info().frame, std::move(undulations), *std::move(heights), *metrics, metric,
-                   *std::move(sea));
+    return Terrain(scene.info().frame, std::move(undulations), *std::move(heights), *std::move(metrics),
+                   metric, *sea);
 }
 
 Terrain::Terrain(const geo::GridFrame& frame, UndulationGrid undulations, Raster<float> heights,
-                 const MetricRasters& metrics, ErrorMetric metric, Raster<std::uint8_t> sea)
-    : frame_(frame),
-      levels_(frame.levels()),
-      positions_(frame),
-      undulations_(std::move(undulations)),
-      heights_(std::move(heights)),
-      sea_(std::move(sea)),
-      level_bounds_(lod::level_bounds(frame_, undulations_)) {
-    const Raster<float> filled = mesh_heights(frame_, heights_);
-    const Raster<std::uint16_t>& errors =
-        metric == ErrorMetric::bounded ? metrics.bounded : metrics.incremental;
-    posts_.resize(filled.samples().size());
-    for (std::size_t i = 0; i < posts_.size(); ++i) {
-        posts_[i] = {filled.samples()[i], errors.samples()[i], metrics.radius.samples()[i]};
-    }
-}
-
-std::uint64_t Terrain::memory_bytes() const {
-    return posts_.size() * sizeof(Post) + heights_.samples().size() * sizeof(float) + sea_.samples().size() +
-           undulations_.memory_bytes();
+                 MetricRasters metrics, ErrorMetric metric, const Raster<std::uint8_t>& sea)
+    : parts_(std::make_unique<Parts>(
+          std::make_shared<MemoryPyramid>(frame, std::move(heights), std::move(metrics), sea),
+          std::move(undulations))) {
+    TileStoreOptions at_once;
+    at_once.memory_bytes = std::numeric_limits<std::size_t>::max() / 2;
+    at_once.threads = 0;
+    at_once.fade_s = 0;
+    auto tiles = TileStore::open(*parts_->pyramid, parts_->positions, parts_->undulations, metric, at_once);
+    assert(tiles);  // reading memory does not fail
+    parts_->tiles = std::move(*tiles);
 }
 
 }  // namespace relevo::lod

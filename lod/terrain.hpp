@@ -1,79 +1,79 @@
 #pragma once
 
-#include <cmath>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "geo/post_positions.hpp"
 #include "geo/result.hpp"
 #include "lod/error_metric.hpp"
 #include "lod/level_bounds.hpp"
+#include "lod/pyramid/pyramid.hpp"
 #include "lod/scene/raster.hpp"
 #include "lod/scene/scene.hpp"
+#include "lod/tiles/tile_store.hpp"
+#include "lod/tiles/true_posts.hpp"
 #include "lod/undulation_grid.hpp"
 
 namespace relevo::lod {
 
-/// A scene in memory, ready to be meshed: the padded 2^n + 1 grid with heights for every post (voids and
-/// padding are filled for the mesh only) and the metrics of every vertex.
+/// A terrain, ready to be meshed: where its posts lie, and those parts of its pyramid that are in memory. Its
+/// size does not matter.
 class Terrain {
   public:
-    /// What refinement reads of a vertex, together in one place.
-    struct Post {
-        float H;               ///< metres above the vertical datum
-        std::uint16_t error;   ///< code of the object-space error
-        std::uint16_t radius;  ///< code of the sphere's radius; 0: nothing valid below
-    };
+    /// Reads the coarsest block.
+    static Result<Terrain> open(std::shared_ptr<const Pyramid> pyramid, UndulationGrid undulations,
+                                ErrorMetric metric, const TileStoreOptions& options);
 
-    /// The incremental error serves in place of the bounded one where a scene was imported without that.
+    /// The whole scene in memory.
     static Result<Terrain> load(const Scene& scene, ErrorMetric metric);
 
-    /// From parts in memory: heights of the data (void = NaN) and the chosen metric's errors and radii.
-    /// \param sea  255 at posts of the class sea, else 0; empty: there is none
+    /// From rasters in memory: heights of the data (void = NaN) and the metrics of the padded grid. Tiles
+    /// come at once when they are waited for. \param sea  255 at posts of the class sea, else 0; empty: there
+    /// is none
     Terrain(const geo::GridFrame& frame, UndulationGrid undulations, Raster<float> heights,
-            const MetricRasters& metrics, ErrorMetric metric, Raster<std::uint8_t> sea = {});
+            MetricRasters metrics, ErrorMetric metric, const Raster<std::uint8_t>& sea = {});
 
-    const geo::GridFrame& frame() const { return frame_; }
-    int levels() const { return levels_; }  ///< n: the grid has 2^n + 1 posts a side
-    const geo::PostPositions& positions() const { return positions_; }
-    const UndulationGrid& undulations() const { return undulations_; }
-
-    const Post& post(int column, int row) const {
-        return posts_[(static_cast<std::size_t>(row) << levels_) + static_cast<std::size_t>(row) +
-                      static_cast<std::size_t>(column)];
-    }
-
-    /// Heights H of the data as imported, void = NaN: what is true, unlike Post::H where there is nothing.
-    const Raster<float>& heights() const { return heights_; }
+    const geo::GridFrame& frame() const { return parts_->pyramid->frame(); }
+    int levels() const { return frame().levels(); }  ///< n: the padded grid has 2^n + 1 posts a side
+    const geo::PostPositions& positions() const { return parts_->positions; }
+    const UndulationGrid& undulations() const { return parts_->undulations; }
+    const std::shared_ptr<const Pyramid>& pyramid() const { return parts_->pyramid; }
 
     /// By vertex level: what an exaggeration adds to errors and radii.
-    const std::vector<LevelBound>& level_bounds() const { return level_bounds_; }
+    const std::vector<LevelBound>& level_bounds() const { return parts_->bounds; }
 
-    /// 255 at posts of the class sea, else 0; of no size where there is none.
-    const Raster<std::uint8_t>& sea() const { return sea_; }
+    /// What meshes are made of.
+    TileStore& tiles() const { return *parts_->tiles; }
 
-    std::uint64_t memory_bytes() const;
+    /// What is true.
+    const TruePosts& posts() const { return parts_->posts; }
 
-    /// Is there a valid height at this post of the padded grid?
-    bool is_valid(int column, int row) const {
-        return column < frame_.columns && row < frame_.rows && !std::isnan(heights_.at(column, row));
+    /// Where a post with a height H is, ECEF, metres.
+    glm::dvec3 position(int column, int row, double H, double exaggeration) const {
+        return positions().at(column, row, undulations().at(column, row) + exaggeration * H);
     }
 
-    /// The true position of a post (filled in voids and padding), ECEF, metres, with heights H exaggerated.
+    /// Where a valid post is. For some posts: many ask a TruePosts::Reader for their heights.
     glm::dvec3 position(int column, int row, double exaggeration) const {
-        const double H = static_cast<double>(post(column, row).H);
-        return positions_.at(column, row, undulations_.at(column, row) + exaggeration * H);
+        const float H = TruePosts::Reader(posts()).H(column, row);
+        return position(column, row, static_cast<double>(H), exaggeration);
     }
 
   private:
-    geo::GridFrame frame_;
-    int levels_;
-    geo::PostPositions positions_;
-    UndulationGrid undulations_;
-    Raster<float> heights_;
-    Raster<std::uint8_t> sea_;
-    std::vector<Post> posts_;
-    std::vector<LevelBound> level_bounds_;
+    struct Parts {
+        Parts(std::shared_ptr<const Pyramid> of, UndulationGrid N);
+
+        std::shared_ptr<const Pyramid> pyramid;
+        geo::PostPositions positions;
+        UndulationGrid undulations;
+        std::vector<LevelBound> bounds;
+        TruePosts posts;
+        std::unique_ptr<TileStore> tiles;
+    };
+    explicit Terrain(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+
+    std::unique_ptr<Parts> parts_;  // tiles keep pointers to the others
 };
 
 }  // namespace relevo::lod

@@ -20,20 +20,22 @@ geo::Undulation EyeHeight::undulation(geo::LatLon place) const {
 
 std::optional<geo::EllipsoidalHeight> ground_height(const lod::Terrain& terrain, geo::LatLon place,
                                                     double exaggeration) {
-    const auto& heights = terrain.heights();
+    const int last_column = terrain.frame().columns - 1;
+    const int last_row = terrain.frame().rows - 1;
     const geo::GridPosition at = terrain.frame().grid_position(place);
-    if (!(at.column >= 0 && at.row >= 0 && at.column <= heights.columns() - 1 &&
-          at.row <= heights.rows() - 1)) {
+    if (!(at.column >= 0 && at.row >= 0 && at.column <= last_column && at.row <= last_row)) {
         return std::nullopt;
     }
     const int west = static_cast<int>(at.column);
     const int north = static_cast<int>(at.row);
-    const int east = std::min(west + 1, heights.columns() - 1);
-    const int south = std::min(north + 1, heights.rows() - 1);
+    const int east = std::min(west + 1, last_column);
+    const int south = std::min(north + 1, last_row);
+    lod::TruePosts::Reader posts(terrain.posts());
+    const auto H_at = [&](int column, int row) { return static_cast<double>(posts.H(column, row)); };
     const double x = at.column - west;
     const double y = at.row - north;
-    const double H = (1 - y) * ((1 - x) * heights.at(west, north) + x * heights.at(east, north)) +
-                     y * ((1 - x) * heights.at(west, south) + x * heights.at(east, south));
+    const double H = (1 - y) * ((1 - x) * H_at(west, north) + x * H_at(east, north)) +
+                     y * ((1 - x) * H_at(west, south) + x * H_at(east, south));
     if (std::isnan(H)) return std::nullopt;
     return geo::EllipsoidalHeight{terrain.undulations().at(at) + exaggeration * H};
 }

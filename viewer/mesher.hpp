@@ -1,5 +1,10 @@
 #pragma once
 
+#include <chrono>
+#include <optional>
+
+#include <glm/geometric.hpp>
+
 #include "lod/soar/full_mesh.hpp"
 #include "lod/soar/refiner.hpp"
 #include "viewer/view_state.hpp"
@@ -12,21 +17,53 @@ class Mesher {
     /// The terrain must outlive the mesher.
     explicit Mesher(const lod::Terrain& terrain) : terrain_(terrain), refiner_(terrain) {}
 
-    /// Valid until the next call.
+    /// Of what is in memory; what is missing is asked for. Valid until the next call.
     const lod::Mesh& mesh(const lod::View& view, const ViewState& state) {
-        if (state.method == Method::full) {
-            full_ = lod::full_mesh(terrain_, view, state.exaggeration);
-            return full_;
-        }
-        return refiner_.refine(
-            view,
-            {.tau_px = state.tau_px, .morph = state.morph, .exaggeration = state.exaggeration, .cull = true});
+        if (state.method == Method::full) return full(view, state);
+        terrain_.tiles().start_frame();
+        look_ahead(view, options(state));
+        return refiner_.refine(view, options(state));
+    }
+
+    /// Of all that the view asks for; waits for what is missing.
+    Result<const lod::Mesh*> whole_mesh(const lod::View& view, const ViewState& state) {
+        if (state.method == Method::full) return &full(view, state);
+        return refiner_.refine_whole(view, options(state));
     }
 
   private:
+    using Clock = std::chrono::steady_clock;
+
+    /// Where a moving eye will be when what is asked for now has been read.
+    void look_ahead(const lod::View& view, const lod::RefineOptions& options) {
+        constexpr double kAheadS = 0.7;
+        const auto now = Clock::now();
+        if (last_eye_) {
+            const double passed_s = std::chrono::duration<double>(now - last_time_).count();
+            const glm::dvec3 moved = view.eye().m - last_eye_->m;
+            if (passed_s > 0 && passed_s < kAheadS && glm::length(moved) > 0.01) {
+                lod::Camera camera = view.camera();
+                camera.eye = geo::to_geodetic({view.eye().m + moved * (kAheadS / passed_s)});
+                refiner_.look_ahead(lod::View(camera), options);
+            }
+        }
+        last_eye_ = view.eye();
+        last_time_ = now;
+    }
+
+    static lod::RefineOptions options(const ViewState& state) {
+        return {.tau_px = state.tau_px, .morph = state.morph, .exaggeration = state.exaggeration};
+    }
+    const lod::Mesh& full(const lod::View& view, const ViewState& state) {
+        full_ = lod::full_mesh(terrain_, view, state.exaggeration);
+        return full_;
+    }
+
     const lod::Terrain& terrain_;
     lod::Refiner refiner_;
     lod::Mesh full_;
+    std::optional<geo::Ecef> last_eye_;
+    Clock::time_point last_time_;
 };
 
 }  // namespace relevo::viewer

@@ -35,7 +35,7 @@ int tile_side(int samples) {
 
 bool ground_must_show(const lod::Terrain& terrain, const lod::View& view, const ViewState& state) {
     const auto hits = [&](double x, double y) {
-        return lod::pick(terrain, view.eye(), view.ray({x, y}), state.exaggeration).has_value();
+        return lod::pick_exactly(terrain, view.eye(), view.ray({x, y}), state.exaggeration).has_value();
     };
     const int width = view.camera().width;
     const int height = view.camera().height;
@@ -80,18 +80,24 @@ Result<FinishedPicture> draw_picture(const lod::Terrain& terrain, const EyeHeigh
     // shaders.
     Mesher mesher(terrain);
     if (request.max_triangles && state.method != Method::full) {
+        std::optional<Error> failure;
         state.tau_px = tau_for_triangles(*request.max_triangles, asked.tau_px, [&](double tau_px) {
             state.tau_px = tau_px;
-            return mesher.mesh(view, state).triangles();
+            const auto tried = mesher.whole_mesh(view, state);
+            if (!tried) failure = tried.error();
+            return tried ? (*tried)->triangles() : 0;
         });
+        if (failure) return *failure;
     }
     figures.tau_reached_px = state.tau_px;
-    renderer->upload(mesher.mesh(view, state));
+    const auto first = mesher.whole_mesh(view, state);
+    if (!first) return first.error();
+    renderer->upload(**first);
     if (auto done = renderer->draw(view, settings, *target, {}, false); !done) return done.error();
     gl_finish();
 
     const Stopwatch frame;
-    const lod::Mesh& mesh = mesher.mesh(view, state);
+    const lod::Mesh& mesh = mesher.mesh(view, state);  // all that it needs is there
     figures.refine_ms = frame.ms();
     figures.triangles = mesh.triangles();
     renderer->upload(mesh);

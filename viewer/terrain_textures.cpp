@@ -59,8 +59,8 @@ HeightRange height_range(const Heights& heights, const lod::Raster<std::uint8_t>
     return range;
 }
 
-void fill_row(const lod::Terrain& terrain, const HeightRange& range, int row, Texel* out) {
-    const Heights& heights = terrain.heights();
+void fill_row(const lod::Terrain& terrain, const Heights& heights, const HeightRange& range, int row,
+              Texel* out) {
     const geo::PolarPositions* polar = terrain.positions().polar();
     geo::GridFrame::Spacing spacing = terrain.frame().spacing({0, static_cast<double>(row)});
     const bool round = terrain.frame().closes();  // beyond the last column is the second
@@ -97,14 +97,15 @@ void fill_row(const lod::Terrain& terrain, const HeightRange& range, int row, Te
 /// stays small.
 constexpr int kStrip = 256;
 
-void fill_posts(const lod::Terrain& terrain, const HeightRange& range, GlName texture) {
-    const int columns = terrain.heights().columns();
-    const int rows = terrain.heights().rows();
+void fill_posts(const lod::Terrain& terrain, const Heights& heights, const HeightRange& range,
+                GlName texture) {
+    const int columns = heights.columns();
+    const int rows = heights.rows();
     std::vector<Texel> strip(static_cast<std::size_t>(columns) * kStrip);
     for (int top = 0; top < rows; top += kStrip) {
         const int count = std::min(kStrip, rows - top);
         tbb::parallel_for(0, count, [&](int i) {
-            fill_row(terrain, range, top + i,
+            fill_row(terrain, heights, range, top + i,
                      strip.data() + static_cast<std::size_t>(i) * static_cast<std::size_t>(columns));
         });
         glTextureSubImage2D(texture, 0, 0, top, columns, count, GL_RGBA, GL_SHORT, strip.data());
@@ -138,9 +139,8 @@ void fill_cells(const Heights& heights, GlName texture) {
 }  // namespace
 
 Result<TerrainTextures> build_terrain_textures(const lod::Terrain& terrain) {
-    const Heights& heights = terrain.heights();
-    const int columns = heights.columns();
-    const int rows = heights.rows();
+    const int columns = terrain.frame().columns;
+    const int rows = terrain.frame().rows;
     GLint most = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
     if (columns > most || rows > most) {
@@ -151,7 +151,21 @@ Result<TerrainTextures> build_terrain_textures(const lod::Terrain& terrain) {
                 "import a smaller part with --crop",
                 columns, rows, most)};
     }
-    const HeightRange range = height_range(heights, terrain.sea());
+    Heights heights(columns, rows);
+    lod::Raster<std::uint8_t> sea_posts(columns, rows);
+    for (int r = 0; r < rows; r += 256)
+        for (int c = 0; c < columns; c += 256) {
+            const auto ground = terrain.pyramid()->read_ground({0, c / 256, r / 256});
+            if (!ground) return ground.error();
+            for (int y = 0; y < std::min(256, rows - r); ++y)
+                for (int x = 0; x < std::min(256, columns - c); ++x) {
+                    heights.at(c + x, r + y) = ground->heights.at(x, y);
+                    sea_posts.at(c + x, r + y) = ground->is_sea.at(x, y);
+                }
+        }
+    if (std::all_of(sea_posts.samples().begin(), sea_posts.samples().end(), [](auto v) { return v == 0; }))
+        sea_posts = {};
+    const HeightRange range = height_range(heights, sea_posts);
     const auto larger = static_cast<unsigned>(std::max(columns, rows));
 
     TerrainTextures textures;
@@ -164,20 +178,20 @@ Result<TerrainTextures> build_terrain_textures(const lod::Terrain& terrain) {
     const GlName posts = textures.posts.name();
     glTextureStorage2D(posts, std::bit_width(larger), GL_RGBA16_SNORM, columns, rows);
     if (auto done = gl_check("making room for the terrain's normals"); !done) return done.error();
-    fill_posts(terrain, range, posts);
+    fill_posts(terrain, heights, range, posts);
     glGenerateTextureMipmap(posts);
     glTextureParameteri(posts, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     glTextureParameteri(posts, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTextureParameteri(posts, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTextureParameteri(posts, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 
-    if (!terrain.sea().samples().empty()) {
+    if (!sea_posts.samples().empty()) {
         textures.sea = GlTexture(create_gl_texture(GL_TEXTURE_2D));
         const GlName sea = textures.sea.name();
         glTextureStorage2D(sea, std::bit_width(larger), GL_R8, columns, rows);
         glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
         glTextureSubImage2D(sea, 0, 0, 0, columns, rows, GL_RED, GL_UNSIGNED_BYTE,
-                            terrain.sea().samples().data());
+                            sea_posts.samples().data());
         glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
         glGenerateTextureMipmap(sea);
         glTextureParameteri(sea, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);

@@ -3,7 +3,6 @@
 #include <array>
 
 #include "lod/soar/diamond.hpp"
-#include "lod/terrain.hpp"
 
 namespace relevo::lod {
 
@@ -20,12 +19,6 @@ inline std::array<CellTriangle, 2> cell_triangles(const GridPoint& cell) {
     const bool falls_east = (cell.column + cell.row) % 2 == 0;
     if (falls_east) return {{{south_east, north_west, south_west}, {north_west, south_east, north_east}}};
     return {{{north_east, south_west, south_east}, {south_west, north_east, north_west}}};
-}
-
-/// A cell is ground where its four posts are valid: the rule of measuring, drawing and picking alike.
-inline bool is_valid_cell(const Terrain& terrain, const GridPoint& cell) {
-    return terrain.is_valid(cell.column, cell.row) && terrain.is_valid(cell.column + 1, cell.row) &&
-           terrain.is_valid(cell.column, cell.row + 1) && terrain.is_valid(cell.column + 1, cell.row + 1);
 }
 
 }  // namespace relevo::lod

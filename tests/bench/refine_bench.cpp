@@ -34,7 +34,7 @@ void shipped(benchmark::State& state, const lod::Terrain& terrain, const std::ve
     std::size_t k = 0;
     for (auto _ : state) {
         const lod::View view(cameras[k++ % cameras.size()]);
-        const lod::Mesh& mesh = refiner.refine(view, {.tau_px = tau, .morph = morph});
+        const lod::Mesh& mesh = **refiner.refine_whole(view, {.tau_px = tau, .morph = morph});
         triangles += mesh.triangles();
         vertices += mesh.vertices.size();
     }

@@ -70,8 +70,8 @@ TEST_P(Frames, KeepTheError) {
         for (const double exaggeration : {1.0, 3.0}) {
             for (const bool morph : {false, true}) {
                 constexpr double kTau = 2;
-                const Mesh& mesh =
-                    refiner.refine(view, {.tau_px = kTau, .morph = morph, .exaggeration = exaggeration});
+                const Mesh& mesh = **refiner.refine_whole(
+                    view, {.tau_px = kTau, .morph = morph, .exaggeration = exaggeration});
                 EXPECT_EQ(count_t_vertices(mesh), 0);
                 EXPECT_EQ(count_torn_posts(mesh), 0);
                 const auto error = measure_error(terrain, view, mesh, exaggeration);

@@ -46,7 +46,9 @@ TEST_P(RealDems, KeepTheErrorOnEveryView) {
     const auto cameras = sample_views(*terrain, 8, 20261122, 480, 270);
     for (const double tau : {0.5, 2.0}) {
         for (const bool morph : {false, true}) {
-            const ViewsCheck check = check_views(*terrain, ErrorMetric::bounded, cameras, tau, morph);
+            const auto checked = check_views(*terrain, ErrorMetric::bounded, cameras, tau, morph);
+            ASSERT_TRUE(checked) << checked.error().message;
+            const ViewsCheck& check = *checked;
             EXPECT_LE(check.max_px, tau);
             EXPECT_GT(check.max_px, 0.05 * tau) << "the bound is of use";
             EXPECT_GE(check.views_with_ground, 6);

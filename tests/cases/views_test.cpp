@@ -83,7 +83,7 @@ class HardViews : public testing::TestWithParam<Eye> {
         const View view(camera(terrain, eye));
         for (const double tau : {0.5, 4.0, 16.0}) {
             for (const bool morph : {false, true}) {
-                const Mesh& mesh = refiner.refine(view, {.tau_px = tau, .morph = morph});
+                const Mesh& mesh = **refiner.refine_whole(view, {.tau_px = tau, .morph = morph});
                 for (const MeshVertex& v : mesh.vertices) {
                     ASSERT_TRUE(std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z));
                 }

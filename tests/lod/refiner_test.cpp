@@ -82,7 +82,7 @@ TEST_P(RefinerTest, MeasuredErrorIsAtMostTau) {
         const View view(camera);
         for (const double tau : {0.5, 2.0, 8.0}) {
             for (const bool morph : {false, true}) {
-                const Mesh& mesh = refiner.refine(view, {.tau_px = tau, .morph = morph});
+                const Mesh& mesh = **refiner.refine_whole(view, {.tau_px = tau, .morph = morph});
                 const auto error = measure_error(terrain, view, mesh);
                 if (!error) continue;
                 EXPECT_LE(error->max_px, tau) << "pitch " << camera.pitch.value << " h " << camera.eye.h.m;
@@ -99,7 +99,7 @@ TEST_P(RefinerTest, MeasuredErrorIsAtMostTauWhenExaggerated) {
         for (const Camera& camera : sample_views(terrain, 12, 11, 160, 100)) {
             const View view(camera);
             const Mesh& mesh =
-                refiner.refine(view, {.tau_px = 1, .morph = true, .exaggeration = exaggeration});
+                **refiner.refine_whole(view, {.tau_px = 1, .morph = true, .exaggeration = exaggeration});
             const auto error = measure_error(terrain, view, mesh, exaggeration);
             if (!error) continue;
             EXPECT_LE(error->max_px, 1) << "exaggeration " << exaggeration;
@@ -116,7 +116,7 @@ TEST_P(RefinerTest, HasNoCracks) {
             for (const bool cull : {false, true}) {
                 for (const bool morph : {false, true}) {
                     const Mesh& mesh =
-                        refiner.refine(View(camera), {.tau_px = 1.5, .morph = morph, .cull = cull});
+                        **refiner.refine_whole(View(camera), {.tau_px = 1.5, .morph = morph, .cull = cull});
                     EXPECT_EQ(count_t_vertices(mesh), 0);
                     EXPECT_EQ(count_torn_posts(mesh), 0);
                 }
@@ -144,8 +144,8 @@ TEST_P(RefinerTest, CullingTakesTrianglesAwayAndChangesNone) {
     };
     for (const Camera& camera : sample_views(terrain, 10, 5, 640, 360)) {
         const View view(camera);
-        const auto all = triangles(refiner.refine(view, {.tau_px = 2, .cull = false}));
-        const auto kept = triangles(refiner.refine(view, {.tau_px = 2, .cull = true}));
+        const auto all = triangles(**refiner.refine_whole(view, {.tau_px = 2, .cull = false}));
+        const auto kept = triangles(**refiner.refine_whole(view, {.tau_px = 2, .cull = true}));
         EXPECT_TRUE(std::includes(all.begin(), all.end(), kept.begin(), kept.end()));
         for (const Key& key : all) {
             if (kept.contains(key)) continue;
@@ -170,7 +170,7 @@ TEST(Refiner, DrawsNothingWhereNothingIsValid) {
     Camera camera;
     camera.eye = test::above(terrain, 60, 60, 100);
     camera.pitch = geo::Degrees{-90};
-    const Mesh& mesh = refiner.refine(View(camera), {.tau_px = 0.1});
+    const Mesh& mesh = **refiner.refine_whole(View(camera), {.tau_px = 0.1});
     EXPECT_LE(mesh.triangles(), 40u) << "around the one post alone";
 }
 
@@ -180,7 +180,7 @@ TEST(Refiner, DrawsNoPadding) {
     Camera camera;
     camera.eye = test::above(terrain, 140, 60, 500);
     camera.pitch = geo::Degrees{-60};
-    const Mesh& mesh = refiner.refine(View(camera), {.tau_px = 0.5, .cull = false});
+    const Mesh& mesh = **refiner.refine_whole(View(camera), {.tau_px = 0.5, .cull = false});
     for (std::size_t t = 0; t < mesh.triangles(); ++t) {
         int left = 1 << 20;
         int top = 1 << 20;
@@ -201,7 +201,7 @@ TEST(Refiner, TauDecidesHowMuchIsDrawn) {
     camera.eye = test::above(flat, 64, 64, 2000);
     camera.pitch = geo::Degrees{-90};
     Refiner refiner(flat);
-    EXPECT_LE(refiner.refine(View(camera), {.tau_px = 1, .cull = false}).triangles(), 40u);
+    EXPECT_LE((**refiner.refine_whole(View(camera), {.tau_px = 1, .cull = false})).triangles(), 40u);
 
     const Terrain rough = make({"", test::mountains});
     Refiner rough_refiner(rough);
@@ -262,8 +262,8 @@ TEST(Refiner, SurfaceMovesContinuouslyAlongAFlight) {
             camera.height = 360;
             camera.width = 640;
             const View view(camera);
-            const auto now =
-                surface(terrain, view, refiner.refine(view, {.tau_px = 8, .morph = morph, .cull = false}));
+            const auto now = surface(
+                terrain, view, **refiner.refine_whole(view, {.tau_px = 8, .morph = morph, .cull = false}));
             for (std::size_t i = 0; i < before.size(); ++i) {
                 largest[morph] = std::max(largest[morph], glm::distance(now[i], before[i]));
             }
@@ -290,6 +290,7 @@ TEST(Refiner, OneMillimetreMovesThePictureSmoothly) {
             test::geographic_frame(129, 129, place.lat + 64 * step, place.lon - 64 * step, step);
         const Terrain terrain = test::make_terrain(frame, test::make_heights(frame, test::mountains));
         Refiner refiner(terrain);
+        TruePosts::Reader posts(terrain.posts());
         for (const double above : {2.0, 2000.0}) {
             Camera camera;
             camera.eye = test::above(terrain, 64, 64, above);
@@ -300,14 +301,14 @@ TEST(Refiner, OneMillimetreMovesThePictureSmoothly) {
                 camera.eye =
                     geo::to_geodetic(local.to_ecef({glm::dvec3(0.001 * step_mm, 0.0005 * step_mm, 0)}));
                 const View view(camera);
-                const Mesh& mesh = refiner.refine(view, {.tau_px = 1, .morph = false});
+                const Mesh& mesh = **refiner.refine_whole(view, {.tau_px = 1, .morph = false});
                 for (const MeshVertex& v : mesh.vertices) {
                     const glm::dvec3 drawn(static_cast<double>(v.x), static_cast<double>(v.y),
                                            static_cast<double>(v.z));
                     // What geometry says: GeographicLib's position of the post, all in double.
                     const glm::dvec3 truth =
                         frame.ecef({static_cast<double>(v.column), static_cast<double>(v.row)},
-                                   {static_cast<double>(terrain.post(v.column, v.row).H)}) -
+                                   {static_cast<double>(posts.H(v.column, v.row))}) -
                         view.eye();
                     if (!view.sees(truth) || view.depth(drawn) <= 0) continue;
                     worst = glm::max(worst, glm::abs(view.pixel(drawn) - view.pixel(truth)));

@@ -74,7 +74,8 @@ inline geo::Geodetic above(const lod::Terrain& terrain, double column, double ro
     const geo::LatLon place = terrain.frame().lat_lon({column, row});
     const int c = static_cast<int>(std::lround(column));
     const int r = static_cast<int>(std::lround(row));
-    const double ground = static_cast<double>(terrain.post(c, r).H) + terrain.undulations().at(c, r);
+    const double ground =
+        static_cast<double>(lod::TruePosts::Reader(terrain.posts()).H(c, r)) + terrain.undulations().at(c, r);
     return {place.lat, place.lon, {ground + metres}};
 }
 

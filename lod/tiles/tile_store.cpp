@@ -1,0 +1,305 @@
+#include "lod/tiles/tile_store.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cassert>
+#include <utility>
+
+namespace relevo::lod {
+
+Result<std::unique_ptr<TileStore>> TileStore::open(const Pyramid& pyramid,
+                                                   const geo::PostPositions& positions,
+                                                   const UndulationGrid& undulations, ErrorMetric metric,
+                                                   const TileStoreOptions& options) {
+    std::unique_ptr<TileStore> store(new TileStore(pyramid, positions, undulations, metric, options));
+    const TileGrid& grid = store->grid_;
+    const PyramidBlock block = pyramid_block(grid, grid.root());
+    const auto posts = pyramid.read_vertices(block, metric);
+    if (!posts) return posts.error();
+
+    for (int level = grid.levels - 1; level >= pyramid.top(); --level) {
+        for (int row = 0; row < grid.across(level); ++row) {
+            for (int column = 0; column < grid.across(level); ++column) {
+                const TileId id{level, column, row};
+                if (!grid.holds_data(id)) continue;
+                auto tile = std::make_unique<Resident>(
+                    Resident{.tile = Tile(grid, id, block, *posts, positions, undulations)});
+                tile->presence = 1;
+                tile->side_presence = {1, 1, 1, 1};
+                store->slot(id) = std::move(tile);
+            }
+        }
+    }
+    const int last = 1 << grid.levels;
+    const int in_block = posts->heights.columns() - 1;
+    const GridPoint corners[] = {{0, 0}, {0, last}, {last, last}, {last, 0}};
+    for (std::size_t k = 0; k < 4; ++k) {
+        const auto& [column, row] = corners[k];
+        const auto H = posts->heights.at(column == 0 ? 0 : in_block, row == 0 ? 0 : in_block);
+        store->corners_[k] = {corners[k], static_cast<double>(H), undulations.at(column, row)};
+    }
+    for (int i = 0; i < options.threads; ++i) {
+        store->readers_.emplace_back(
+            [raw = store.get()](const std::stop_token& stop) { raw->run_reader(stop); });
+    }
+    return store;
+}
+
+TileStore::TileStore(const Pyramid& pyramid, const geo::PostPositions& positions,
+                     const UndulationGrid& undulations, ErrorMetric metric, const TileStoreOptions& options)
+    : pyramid_(pyramid),
+      positions_(positions),
+      undulations_(undulations),
+      metric_(metric),
+      options_(options),
+      grid_(pyramid.frame()) {
+    for (int level = 0; level < grid_.levels; ++level) {
+        across_.push_back(grid_.across(level));
+        levels_.emplace_back(static_cast<std::size_t>(across_.back()) *
+                             static_cast<std::size_t>(across_.back()));
+    }
+}
+
+TileStore::~TileStore() {
+    for (std::jthread& reader : readers_) reader.request_stop();
+    work_.notify_all();
+}
+
+template <class Visit>
+void TileStore::for_each_dependence(const TileId& id, Visit visit) const {
+    if (id == grid_.root()) return;
+    const TileId parent = grid_.parent(id);
+    visit(parent);
+    if (grid_.across(id.level) == grid_.across(parent.level)) return;  // the only tile of its level
+    const TileId beside[] = {{parent.level, parent.column + (id.column % 2 == 0 ? -1 : 1), parent.row},
+                             {parent.level, parent.column, parent.row + (id.row % 2 == 0 ? -1 : 1)}};
+    for (const TileId& neighbour : beside) {
+        if (grid_.contains(neighbour) && grid_.holds_data(neighbour)) visit(neighbour);
+    }
+}
+
+void TileStore::start_frame() {
+    std::vector<Arrival> arrivals;
+    {
+        const std::lock_guard lock(mutex_);
+        arrivals.swap(arrivals_);
+    }
+    const bool changed = !arrivals.empty();
+    take_in(arrivals);
+    if (changed || fading_) update_presence();
+    renew_wishes();
+    ++frame_;
+}
+
+void TileStore::take_in(std::vector<Arrival>& arrivals) {
+    std::size_t bytes = 0;
+    for (const Arrival& arrival : arrivals) {
+        for (const auto& tile : arrival.tiles) bytes += tile->tile.bytes();
+    }
+    if (resident_bytes_ + bytes > options_.memory_bytes) make_room(bytes);
+    const auto now = Clock::now();
+    for (Arrival& arrival : arrivals) {
+        if (arrival.failure) {
+            failed_.insert(arrival.asked.begin(), arrival.asked.end());
+            if (!failure_) failure_ = std::move(arrival.failure);
+        }
+        for (auto& tile : arrival.tiles) {
+            auto& place = slot(tile->tile.id());
+            if (place || resident_bytes_ + tile->tile.bytes() > options_.memory_bytes) continue;
+            resident_bytes_ += tile->tile.bytes();
+            tile->arrived = now;
+            tile->used_in_frame = frame_;
+            residents_.push_back(tile.get());
+            place = std::move(tile);
+        }
+    }
+    std::stable_sort(residents_.begin(), residents_.end(), [](const Resident* a, const Resident* b) {
+        return a->tile.id().level > b->tile.id().level;
+    });
+}
+
+/// Drops tiles that the last frame did not draw with and nothing that it drew with depends on, those first
+/// that have not been used for longest.
+void TileStore::make_room(std::size_t bytes) {
+    // Finest first: what a kept tile depends on is marked before it is met.
+    std::vector<Resident*> idle;
+    for (auto at = residents_.rbegin(); at != residents_.rend(); ++at) {
+        if ((*at)->used_in_frame < frame_) {
+            idle.push_back(*at);
+            continue;
+        }
+        for_each_dependence((*at)->tile.id(), [&](const TileId& id) {
+            if (Resident* other = slot(id).get()) other->used_in_frame = frame_;
+        });
+    }
+    std::stable_sort(idle.begin(), idle.end(), [](const Resident* a, const Resident* b) {
+        return a->used_in_frame < b->used_in_frame;
+    });
+    std::set<const Resident*> gone;
+    for (const Resident* tile : idle) {
+        if (resident_bytes_ + bytes <= options_.memory_bytes) break;
+        resident_bytes_ -= tile->tile.bytes();
+        gone.insert(tile);
+    }
+    std::erase_if(residents_, [&](const Resident* tile) { return gone.contains(tile); });
+    for (const Resident* tile : gone) slot(tile->tile.id()).reset();
+}
+
+void TileStore::update_presence() {
+    const auto now = Clock::now();
+    fading_ = false;
+    const auto presence_of = [&](const TileId& id) {
+        if (!grid_.contains(id) || !grid_.holds_data(id)) return 1.0;
+        const Resident* tile = slot(id).get();
+        return tile == nullptr ? 0.0 : tile->presence;
+    };
+    for (Resident* tile : residents_) {  // coarsest first
+        const double age_s = std::chrono::duration<double>(now - tile->arrived).count();
+        double presence = age_s >= options_.fade_s ? 1 : age_s / options_.fade_s;
+        fading_ = fading_ || presence < 1;
+        for_each_dependence(tile->tile.id(),
+                            [&](const TileId& id) { presence = std::min(presence, presence_of(id)); });
+        tile->presence = presence;
+    }
+    for (Resident* tile : residents_) {
+        const auto& [level, column, row] = tile->tile.id();
+        const TileId beside[] = {{level, column, row - 1},
+                                 {level, column, row + 1},
+                                 {level, column - 1, row},
+                                 {level, column + 1, row}};
+        for (std::size_t k = 0; k < 4; ++k)
+            tile->side_presence[k] = std::min(tile->presence, presence_of(beside[k]));
+    }
+}
+
+void TileStore::use(const Resident& tile) const {
+    std::atomic_ref<std::uint64_t>(const_cast<Resident&>(tile).used_in_frame)
+        .store(frame_, std::memory_order_relaxed);
+}
+
+void TileStore::want(const TileId& id, double urgency, Need need) const {
+    if (!grid_.holds_data(id)) return;
+    const std::lock_guard lock(wishes_mutex_);
+    wishes_.push_back({id, urgency, need});
+    // It may be there and have to wait for what it depends on.
+    for_each_dependence(id, [&](const TileId& other) {
+        if (slot(other) == nullptr) wishes_.push_back({other, urgency * 1.001, need});
+    });
+}
+
+void TileStore::renew_wishes() {
+    std::vector<Wish> wishes;
+    {
+        const std::lock_guard lock(wishes_mutex_);
+        wishes.swap(wishes_);
+    }
+    std::erase_if(wishes, [&](const Wish& wish) { return slot(wish.id) || failed_.contains(wish.id); });
+    // One wish a tile, the most pressing.
+    const auto presses_less = [](const Wish& a, const Wish& b) {
+        return a.need != b.need ? a.need == Need::soon : a.urgency < b.urgency;
+    };
+    std::sort(wishes.begin(), wishes.end(),
+              [&](const Wish& a, const Wish& b) { return a.id != b.id ? a.id < b.id : presses_less(b, a); });
+    wishes.erase(
+        std::unique(wishes.begin(), wishes.end(), [](const Wish& a, const Wish& b) { return a.id == b.id; }),
+        wishes.end());
+    std::sort(wishes.begin(), wishes.end(), presses_less);
+    pending_ = static_cast<std::size_t>(
+        std::count_if(wishes.begin(), wishes.end(), [](const Wish& wish) { return wish.need == Need::now; }));
+
+    // What would have to make room for itself only to be dropped again is not read.
+    std::size_t in_use = 0;
+    for (const Resident* tile : residents_) {
+        if (tile->used_in_frame >= frame_) in_use += tile->tile.bytes();
+    }
+    const std::size_t tile_bytes = sizeof(Resident) + std::size_t{40} * 1024;
+    const std::size_t room =
+        options_.memory_bytes > in_use ? (options_.memory_bytes - in_use) / tile_bytes : 0;
+    starved_ = pending_ > room;
+    if (wishes.size() > room) wishes.erase(wishes.begin(), wishes.end() - static_cast<std::ptrdiff_t>(room));
+
+    const std::lock_guard lock(mutex_);
+    has_spare_room_ = resident_bytes_ + 64 * tile_bytes < options_.memory_bytes / 4 * 3;
+    std::erase_if(wishes, [&](const Wish& wish) { return under_way_.contains(wish.id); });
+    queue_ = std::move(wishes);
+    if (!queue_.empty()) work_.notify_all();
+}
+
+Result<std::vector<std::unique_ptr<TileStore::Resident>>> TileStore::read(
+    const PyramidBlock& block, const std::vector<TileId>& tiles) const {
+    const auto posts = pyramid_.read_vertices(block, metric_);
+    if (!posts) return posts.error();
+    std::vector<std::unique_ptr<Resident>> made;
+    made.reserve(tiles.size());
+    for (const TileId& id : tiles) {
+        made.push_back(std::make_unique<Resident>(
+            Resident{.tile = Tile(grid_, id, block, *posts, positions_, undulations_)}));
+    }
+    return made;
+}
+
+/// Reads the block of the most urgent tile, and with it all that are wanted of that block; with room to
+/// spare, all that lie in it. \pre the lock is held; it is while nothing is read
+bool TileStore::read_next(std::unique_lock<std::mutex>& lock) {
+    if (queue_.empty()) return false;
+    const PyramidBlock block = pyramid_block(grid_, queue_.back().id);
+    Arrival arrival;
+    std::erase_if(queue_, [&](const Wish& wish) {
+        if (pyramid_block(grid_, wish.id) != block) return false;
+        arrival.asked.push_back(wish.id);
+        return true;
+    });
+    std::vector<TileId> tiles = arrival.asked;
+    if (has_spare_room_) {
+        constexpr int across = Pyramid::kBlockCells / TileGrid::kCells;
+        tiles.clear();
+        for (int row = across * block.row; row < across * (block.row + 1); ++row) {
+            for (int column = across * block.column; column < across * (block.column + 1); ++column) {
+                if (const TileId id{block.level, column, row}; grid_.contains(id) && grid_.holds_data(id))
+                    tiles.push_back(id);
+            }
+        }
+    }
+    under_way_.insert(tiles.begin(), tiles.end());
+    ++read_blocks_;
+    lock.unlock();
+    if (options_.read_delay_s > 0)
+        std::this_thread::sleep_for(std::chrono::duration<double>(options_.read_delay_s));
+    auto made = read(block, tiles);
+    if (made) {
+        arrival.tiles = std::move(*made);
+    } else {
+        arrival.failure = made.error();
+    }
+    lock.lock();
+    for (const TileId& id : tiles) under_way_.erase(id);
+    arrivals_.push_back(std::move(arrival));
+    news_.notify_all();
+    return true;
+}
+
+void TileStore::run_reader(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    while (!stop.stop_requested()) {
+        if (!read_next(lock)) work_.wait(lock, stop, [&] { return !queue_.empty(); });
+    }
+}
+
+bool TileStore::wait() {
+    std::unique_lock lock(mutex_);
+    if (options_.threads == 0) return read_next(lock);
+    if (arrivals_.empty() && queue_.empty() && under_way_.empty()) return false;
+    news_.wait(lock, [&] { return !arrivals_.empty(); });
+    return true;
+}
+
+std::optional<Error> TileStore::failure() const {
+    return failure_;
+}
+
+TileStore::Figures TileStore::figures() const {
+    const std::lock_guard lock(mutex_);
+    return {resident_bytes_, residents_.size(), pending_, starved_, read_blocks_};
+}
+
+}  // namespace relevo::lod
