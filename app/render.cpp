@@ -126,13 +126,16 @@ Result<void> run(const RenderFlags& flags) {
     if (!heights) return heights.error();
     place_view(*view, flags.view, *scene, *terrain, *heights, *size);
 
+    const viewer::GroundData ground{.pyramid = terrain->pyramid().get(),
+                                    .facts = viewer::ground_facts(scene->info())};
+
     const viewer::PictureRequest request{.width = size->width,
                                          .height = size->height,
                                          .samples = *samples,
                                          .background = *background,
                                          .measure_error = flags.measure_error,
                                          .max_triangles = budget->triangles};
-    const auto finished = viewer::draw_picture(*terrain, *heights, *view, request);
+    const auto finished = viewer::draw_picture(*terrain, ground, *heights, *view, request);
     if (!finished) return finished.error();
     if (auto done = viewer::write_picture(finished->picture, flags.output, to_string(*view)); !done)
         return done;

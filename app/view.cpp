@@ -98,6 +98,11 @@ Result<void> run(const WindowFlags& flags) {
     if (!heights) return heights.error();
     if (!play) place_view(*view, flags.view, *scene, *terrain, *heights, *size);
 
+    const viewer::GroundData ground{
+        .pyramid = terrain->pyramid().get(),
+        .facts = viewer::ground_facts(scene->info()),
+        .report = [](const std::string& line) { fmt::print(stderr, "relevo view: {}\n", line); }};
+
     viewer::FlightOptions options{.width = size->width,
                                   .height = size->height,
                                   .samples = samples,
@@ -118,7 +123,7 @@ Result<void> run(const WindowFlags& flags) {
         std::signal(SIGINT, [](int) { interrupted = 1; });
         options.must_close = [] { return interrupted != 0; };
     }
-    const auto figures = viewer::fly(*scene, *terrain, *heights, *view, options);
+    const auto figures = viewer::fly(*scene, *terrain, ground, *heights, *view, options);
     if (!figures) return figures.error();
     if (flags.common.json) fmt::print("{}\n", to_json(*figures).dump(2));
     return {};

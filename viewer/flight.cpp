@@ -57,7 +57,7 @@ class Flight {
     Result<FlightFigures> run() {
         while (!window_.should_close()) {
             const bool idle = !playing_ && !controls_.moving(window_) && options_.frames == 0 &&
-                              still_frames_ > kSettlingFrames && budget_rests();
+                              still_frames_ > kSettlingFrames && budget_rests() && renderer_.pending() == 0;
             const Input& input = window_.poll(idle ? 0.5 : 0);
             still_frames_ = input.anything ? 0 : still_frames_ + 1;
             if (options_.must_close()) break;
@@ -242,6 +242,7 @@ class Flight {
                                  .playing = playing_,
                                  .recording = !options_.record.empty(),
                                  .frame_ms = frame_times_.shown(),
+                                 .pending = renderer_.pending(),
                                  .middle_distance_m = middle_distance_,
                                  .message = message_,
                                  .keys_shown = keys_shown_};
@@ -342,14 +343,14 @@ class Flight {
 
 }  // namespace
 
-Result<FlightFigures> fly(const lod::Scene& scene, const lod::Terrain& terrain, const EyeHeight& heights,
-                          const ViewState& start, const FlightOptions& options) {
+Result<FlightFigures> fly(const lod::Scene& scene, const lod::Terrain& terrain, const GroundData& ground,
+                          const EyeHeight& heights, const ViewState& start, const FlightOptions& options) {
     auto window = Window::create(options.width, options.height,
                                  fmt::format("{} - Relevo", scene.path().filename().string()));
     if (!window) return window.error();
     auto ui = Ui::create(*window, options.ui_scale > 0 ? options.ui_scale : window->scale());
     if (!ui) return ui.error();
-    auto renderer = Renderer::create(terrain);
+    auto renderer = Renderer::create(terrain, ground);
     if (!renderer) return renderer.error();
     Flight flight(scene, terrain, heights, start, options, std::move(*window), std::move(*ui),
                   std::move(*renderer));

@@ -12,6 +12,7 @@
 #include "viewer/eye_height.hpp"
 #include "viewer/flight_path.hpp"
 #include "viewer/frame_budget.hpp"
+#include "viewer/ground/ground_data.hpp"
 #include "viewer/view_state.hpp"
 
 namespace relevo::viewer {
@@ -51,7 +52,7 @@ struct FlightFigures {
 };
 
 /// Opens a window on a scene and returns when it is closed.
-Result<FlightFigures> fly(const lod::Scene& scene, const lod::Terrain& terrain, const EyeHeight& heights,
-                          const ViewState& start, const FlightOptions& options);
+Result<FlightFigures> fly(const lod::Scene& scene, const lod::Terrain& terrain, const GroundData& ground,
+                          const EyeHeight& heights, const ViewState& start, const FlightOptions& options);
 
 }  // namespace relevo::viewer

@@ -77,7 +77,8 @@ FrameBlock frame_block(const lod::View& view, const lod::Terrain& terrain, const
     const glm::dmat4 projection(view.projection());
     block.clip_from_offset = glm::mat4(crop(camera, window) * projection * glm::dmat4(view.to_eye_space()));
     block.eye_up = vec4(local.up(), camera.eye.h.m - base_m);
-    block.grid = glm::dvec4(grid.columns - 1, grid.rows - 1, 1.0 / grid.columns, 1.0 / grid.rows);
+    block.grid = glm::dvec4(grid.columns - 1, grid.rows - 1, std::max(grid.columns - 2, 0),
+                            std::max(grid.rows - 2, 0));
     block.place = place_of(terrain);
 
     const auto here = sun_at(sun, {camera.eye.lat, camera.eye.lon});

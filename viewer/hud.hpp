@@ -24,6 +24,7 @@ struct HudContent {
     bool playing = false;                  ///< a recorded flight
     bool recording = false;
     double frame_ms = 0;
+    std::size_t pending = 0;  ///< pieces of the ground that are being loaded
     std::optional<double>
         middle_distance_m;  ///< to the ground in the middle of the picture, for the scale bar
     std::string message;    ///< what was just done

@@ -78,6 +78,7 @@ float view_panel(const HudContent& content) {
     panel.line(fmt::format("{:.1f} ms a frame", content.frame_ms));
     if (content.playing) panel.line("recorded flight; any key stops it");
     if (content.recording) panel.line("recording");
+    if (content.pending > 0) panel.line(fmt::format("loading {}", content.pending));
     if (view.exaggeration != 1) panel.line(fmt::format("heights x {:.3g}", view.exaggeration));
     if (view.layer != Layer::hypsometric) panel.line(std::string(to_string(view.layer)));
     return panel.bottom();

@@ -27,8 +27,25 @@ class Stopwatch {
 };
 
 /// Largest side of what is drawn at once: with 8 samples by twice the width, 0.3 GiB.
-int tile_side(int samples) {
+int largest_side(int samples) {
     return samples == 1 ? 4096 : 2048;
+}
+constexpr int kSmallestSide = 256;
+
+/// Side of the tiles: the largest for which the ground that each of them wants has room.
+int tile_side(const Renderer& renderer, const lod::View& view, const DrawSettings& settings,
+              const PictureRequest& request) {
+    const auto fits = [&](int side) {
+        for (int y = 0; y < request.height; y += side) {
+            for (int x = 0; x < request.width; x += side) {
+                if (!renderer.ground_fits(view, settings, {x, y, side, side})) return false;
+            }
+        }
+        return true;
+    };
+    int side = largest_side(request.samples);
+    while (side > kSmallestSide && !fits(side)) side /= 2;
+    return side;
 }
 
 }  // namespace
@@ -54,17 +71,13 @@ bool ground_must_show(const lod::Terrain& terrain, const lod::View& view, const 
     return false;
 }
 
-Result<FinishedPicture> draw_picture(const lod::Terrain& terrain, const EyeHeight& heights,
-                                     const ViewState& asked, const PictureRequest& request) {
+Result<FinishedPicture> draw_picture(const lod::Terrain& terrain, const GroundData& ground,
+                                     const EyeHeight& heights, const ViewState& asked,
+                                     const PictureRequest& request) {
     const auto context = OffscreenContext::create();
     if (!context) return context.error();
-    auto renderer = Renderer::create(terrain);
+    auto renderer = Renderer::create(terrain, ground);
     if (!renderer) return renderer.error();
-    const int side = tile_side(request.samples);
-    const auto target =
-        RenderTarget::create(std::min(request.width, side), std::min(request.height, side), request.samples);
-    if (!target) return target.error();
-
     ViewState state = asked;
     const lod::View view(camera_of(state, heights, request.width, request.height));
     const DrawSettings settings{.layer = state.layer,
@@ -72,9 +85,15 @@ Result<FinishedPicture> draw_picture(const lod::Terrain& terrain, const EyeHeigh
                                 .exaggeration = state.exaggeration,
                                 .sun = state.sun,
                                 .background = request.background};
+    const int side = tile_side(*renderer, view, settings, request);
+    const auto target =
+        RenderTarget::create(std::min(request.width, side), std::min(request.height, side), request.samples);
+    if (!target) return target.error();
     FinishedPicture made{Picture(request.width, request.height), {}};
     PictureFigures& figures = made.figures;
     figures.gl = gl_description();
+
+    const auto part = [&](int x, int y) { return PicturePart{x, y, target->width(), target->height()}; };
 
     // Once for nothing: what is measured below shall not be the making of buffers and the compiling of
     // shaders.
@@ -93,6 +112,7 @@ Result<FinishedPicture> draw_picture(const lod::Terrain& terrain, const EyeHeigh
     const auto first = mesher.whole_mesh(view, state);
     if (!first) return first.error();
     renderer->upload(**first);
+    if (auto done = renderer->complete(view, settings, part(0, 0)); !done) return done.error();
     if (auto done = renderer->draw(view, settings, *target, {}, false); !done) return done.error();
     gl_finish();
 
@@ -102,8 +122,12 @@ Result<FinishedPicture> draw_picture(const lod::Terrain& terrain, const EyeHeigh
     figures.triangles = mesh.triangles();
     renderer->upload(mesh);
     bool terrain_seen = false;
+    double loading_ms = 0;
     for (int y = 0; y < request.height; y += target->height()) {
         for (int x = 0; x < request.width; x += target->width()) {
+            const Stopwatch loading;
+            if (auto done = renderer->complete(view, settings, part(x, y)); !done) return done.error();
+            loading_ms += loading.ms();
             const auto drawn = renderer->draw(view, settings, *target, {x, y}, true);
             if (!drawn) return drawn.error();
             figures.draw_calls += drawn->draw_calls;
@@ -111,7 +135,7 @@ Result<FinishedPicture> draw_picture(const lod::Terrain& terrain, const EyeHeigh
             target->read_into(made.picture, x, y);
         }
     }
-    figures.frame_ms = frame.ms();
+    figures.frame_ms = frame.ms() - loading_ms;
     if (auto done = gl_check("reading the picture"); !done) return done.error();
     if (!terrain_seen && ground_must_show(terrain, view, state)) {
         return Error{ErrorKind::internal, "the ground is in view, but not one of its pixels was drawn (" +

@@ -9,6 +9,7 @@
 #include "lod/oracle.hpp"
 #include "lod/terrain.hpp"
 #include "viewer/eye_height.hpp"
+#include "viewer/ground/ground_data.hpp"
 #include "viewer/picture.hpp"
 #include "viewer/view_state.hpp"
 
@@ -30,7 +31,8 @@ struct PictureFigures {
     double tau_reached_px = 0;  ///< the view's own unless max_triangles made it grow
     int draw_calls = 0;
     double refine_ms = 0;  ///< of the mesh, buffers warm
-    double frame_ms = 0;   ///< refinement, upload and drawing to the last pixel, programs compiled
+    double frame_ms =
+        0;  ///< refinement, upload and drawing to the last pixel, programs compiled, ground loaded
     std::optional<lod::MeasuredError> error;  ///< only where asked for and something is in view
     std::string gl;                           ///< what drew
 };
@@ -40,10 +42,12 @@ struct FinishedPicture {
     PictureFigures figures;
 };
 
-/// Draws one view off-screen, whole or not at all: fails where OpenGL reports an error, or where ground that
-/// is in view left no pixel. A picture of any size is drawn in tiles of bounded memory.
-Result<FinishedPicture> draw_picture(const lod::Terrain& terrain, const EyeHeight& heights,
-                                     const ViewState& view, const PictureRequest& request);
+/// Draws one view off-screen, whole or not at all: waits for all of the ground that it wants, and fails where
+/// some of that is damaged, where OpenGL reports an error, or where ground that is in view left no pixel. A
+/// picture of any size is drawn in tiles of bounded memory.
+Result<FinishedPicture> draw_picture(const lod::Terrain& terrain, const GroundData& ground,
+                                     const EyeHeight& heights, const ViewState& view,
+                                     const PictureRequest& request);
 
 /// Is there ground in view that must have left pixels? It is asked of the full data, by rays: one counts
 /// where its neighbours as far away as the mesh may be wrong hit the ground too.

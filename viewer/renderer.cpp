@@ -16,10 +16,7 @@ namespace relevo::viewer {
 namespace {
 
 constexpr GLuint kFrameBinding = 0;
-constexpr GLuint kPostsUnit = 0;
-constexpr GLuint kCellsUnit = 1;
-constexpr GLuint kRampUnit = 2;
-constexpr GLuint kSeaUnit = 3;
+constexpr GLuint kRampUnit = 2;  // the others are GroundTextures'
 
 /// Fills a buffer that is made anew every frame. Fresh storage of the same size lets the driver keep the old
 /// one for a frame that is still being drawn.
@@ -32,11 +29,10 @@ void stream(const GlBuffer& buffer, std::size_t& capacity, const void* data, std
 
 }  // namespace
 
-Result<Renderer> Renderer::create(const lod::Terrain& terrain) {
-    Renderer made(terrain);
-    auto textures = build_terrain_textures(terrain);
-    if (!textures) return textures.error();
-    made.textures_ = std::move(*textures);
+Result<Renderer> Renderer::create(const lod::Terrain& terrain, const GroundData& data) {
+    auto ground = GroundTextures::create(terrain, data);
+    if (!ground) return ground.error();
+    Renderer made(terrain, *std::move(ground));
     if (auto done = made.make_ramps(); !done) return done.error();
 
     auto sky = build_program({.name = "sky",
@@ -62,7 +58,8 @@ Result<Renderer> Renderer::create(const lod::Terrain& terrain) {
 Result<void> Renderer::make_ramps() {
     const std::array<Layer, 2> layers{Layer::hypsometric, Layer::slope};
     for (std::size_t i = 0; i < layers.size(); ++i) {
-        const HeightSpan span{textures_.lowest_m, textures_.highest_m, textures_.lowest_land_m};
+        const GroundFacts& facts = ground_.facts();
+        const HeightSpan span{facts.lowest_m, facts.highest_m, facts.lowest_land_m};
         const auto colours = colour_ramp(layers[i], span);
         const auto sea = sea_ramp(span);
         ramps_[i] = GlTexture(create_gl_texture(GL_TEXTURE_2D));
@@ -99,21 +96,24 @@ Result<GlName> Renderer::terrain_program(const Variant& variant) {
     if (const auto known = terrain_programs_.find(variant); known != terrain_programs_.end()) {
         return known->second.name();
     }
-    std::string defines = fmt::format("#define LAYER {}\n", static_cast<int>(variant.layer));
+    std::string defines = fmt::format("#define LAYER {}\n#define TOP_LEVEL {}\n",
+                                      static_cast<int>(variant.layer), ground_.top());
     if (variant.wireframe) defines += "#define WIREFRAME\n";
     if (variant.sun_fixed) defines += "#define SUN_FIXED\n";
     if (variant.sky) defines += "#define SKY\n";
-    if (textures_.has_voids()) defines += "#define VOIDS\n";
+    if (ground_.facts().has_voids) defines += "#define VOIDS\n";
     if (const auto* polar = terrain_->positions().polar())
         defines += fmt::format("#define POLE {:.1f}\n", polar->plane().pole);
-    if (textures_.has_sea()) defines += "#define SEA\n";
+    if (ground_.facts().has_sea) defines += "#define SEA\n";
+    const std::string fragment =
+        std::string(shader_text("ground.glsl")) + std::string(shader_text("terrain.frag"));
     auto program =
         build_program({.name = "terrain",
                        .defines = std::move(defines),
                        .common = shader_text("frame.glsl"),
                        .vertex = shader_text("terrain.vert"),
                        .geometry = variant.wireframe ? shader_text("terrain.geom") : std::string_view{},
-                       .fragment = shader_text("terrain.frag")});
+                       .fragment = fragment});
     if (!program) return program.error();
     return terrain_programs_.emplace(variant, std::move(*program)).first->second.name();
 }
@@ -122,6 +122,12 @@ void Renderer::upload(const lod::Mesh& mesh) {
     stream(vertices_, vertex_bytes_, mesh.vertices.data(), mesh.vertices.size() * sizeof(lod::MeshVertex));
     stream(indices_, index_bytes_, mesh.indices.data(), mesh.indices.size() * sizeof(std::uint32_t));
     index_count_ = static_cast<int>(mesh.indices.size());
+}
+
+Result<void> Renderer::complete(const lod::View& view, const DrawSettings& settings,
+                                const PicturePart& part) {
+    if (auto done = ground_.complete(Sight(view, part), settings.exaggeration); !done) return done;
+    return gl_check("loading the terrain's normals");
 }
 
 Result<DrawFigures> Renderer::draw(const lod::View& view, const DrawSettings& settings,
@@ -139,6 +145,7 @@ Result<DrawFigures> Renderer::draw(const lod::View& view, const DrawSettings& se
                     settings.exaggeration, base_undulation_m_);
     glNamedBufferSubData(frame_.name(), 0, sizeof(block), &block);
     glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, frame_.name());
+    ground_.update(Sight(view, {region.x, region.y, target.width(), target.height()}), settings.exaggeration);
 
     const auto colour = settings.background.value_or(std::array<float, 3>{0, 0, 0});
     target.begin(colour[0], colour[1], colour[2]);
@@ -150,9 +157,7 @@ Result<DrawFigures> Renderer::draw(const lod::View& view, const DrawSettings& se
     if (index_count_ > 0) {
         glUseProgram(*program);
         glBindVertexArray(vertex_array_.name());
-        glBindTextureUnit(kPostsUnit, textures_.posts.name());
-        glBindTextureUnit(kCellsUnit, textures_.cells.name());
-        glBindTextureUnit(kSeaUnit, textures_.sea.name());
+        ground_.bind();
         glBindTextureUnit(kRampUnit, ramps_[settings.layer == Layer::slope ? 1 : 0].name());
         glEnable(GL_CLIP_DISTANCE0);
         glEnable(GL_CLIP_DISTANCE1);

@@ -11,10 +11,10 @@
 #include "lod/terrain.hpp"
 #include "lod/view.hpp"
 #include "viewer/gl_object.hpp"
+#include "viewer/ground/ground_textures.hpp"
 #include "viewer/layer.hpp"
 #include "viewer/render_target.hpp"
 #include "viewer/sun_setting.hpp"
-#include "viewer/terrain_textures.hpp"
 
 namespace relevo::viewer {
 
@@ -44,13 +44,28 @@ struct DrawFigures {
 /// current from its making to its end.
 class Renderer {
   public:
-    /// The terrain must outlive the renderer.
-    static Result<Renderer> create(const lod::Terrain& terrain);
+    /// The terrain and the pyramid, which must be of the same data, must outlive the renderer. Fails where
+    /// the coarsest of the ground cannot be read.
+    static Result<Renderer> create(const lod::Terrain& terrain, const GroundData& ground);
 
     /// Hands a mesh to OpenGL; it is drawn until the next one comes.
     void upload(const lod::Mesh& mesh);
 
-    /// Draws the uploaded mesh, which must have been made for this view, and sky.
+    /// Waits until all of the ground's texels that a picture's part wants are there. Fails where some are
+    /// damaged.
+    Result<void> complete(const lod::View& view, const DrawSettings& settings, const PicturePart& part);
+
+    /// Pieces of the ground that the last picture wanted and that have not come yet: it was drawn with
+    /// coarser ones in their places.
+    std::size_t pending() const { return ground_.pending(); }
+
+    /// Is there room for all of the ground's texels that a picture's part wants? Else it is drawn coarser.
+    bool ground_fits(const lod::View& view, const DrawSettings& settings, const PicturePart& part) const {
+        return ground_.fits(Sight(view, part), settings.exaggeration);
+    }
+
+    /// Draws the uploaded mesh, which must have been made for this view, and sky. The ground's texels that
+    /// are not there yet come in the background.
     Result<DrawFigures> draw(const lod::View& view, const DrawSettings& settings, const RenderTarget& target,
                              Region region, bool count_terrain);
     Result<DrawFigures> draw(const lod::View& view, const DrawSettings& settings,
@@ -59,7 +74,8 @@ class Renderer {
     }
 
   private:
-    explicit Renderer(const lod::Terrain& terrain) : terrain_(&terrain) {}
+    Renderer(const lod::Terrain& terrain, GroundTextures ground)
+        : terrain_(&terrain), ground_(std::move(ground)) {}
 
     /// What makes one terrain program differ from another.
     struct Variant {
@@ -72,7 +88,7 @@ class Renderer {
     void make_vertex_array();
 
     const lod::Terrain* terrain_;
-    TerrainTextures textures_;
+    GroundTextures ground_;
     std::array<GlTexture, 2> ramps_;  // hypsometric, slope
     std::map<Variant, GlProgram> terrain_programs_;
     GlProgram sky_program_;

@@ -34,7 +34,8 @@ struct Row {
     int measured = 0;
 };
 
-Result<void> run_row(const lod::Terrain& terrain, const viewer::EyeHeight& heights, viewer::ViewState state,
+Result<void> run_row(const lod::Terrain& terrain, const viewer::GroundData& ground,
+                     const viewer::EyeHeight& heights, viewer::ViewState state,
                      const std::vector<lod::Camera>& cameras) {
     Row row;
     for (const lod::Camera& camera : cameras) {
@@ -46,7 +47,7 @@ Result<void> run_row(const lod::Terrain& terrain, const viewer::EyeHeight& heigh
         request.height = camera.height;
         request.samples = 1;
         request.measure_error = true;
-        const auto picture = viewer::draw_picture(terrain, heights, state, request);
+        const auto picture = viewer::draw_picture(terrain, ground, heights, state, request);
         if (!picture) return picture.error();
         const viewer::PictureFigures& figures = picture->figures;
         row.triangles.push_back(static_cast<double>(figures.triangles));
@@ -74,6 +75,8 @@ Result<void> run(const char* path, int views) {
     for (const auto metric : {lod::ErrorMetric::bounded, lod::ErrorMetric::incremental}) {
         const auto terrain = lod::Terrain::load(*scene, metric);
         if (!terrain) return terrain.error();
+        const viewer::GroundData ground{.pyramid = terrain->pyramid().get(),
+                                        .facts = viewer::ground_facts(scene->info())};
         const auto cameras = bench::flight(*scene, views);
         for (const bool morph : {false, true}) {
             for (double tau = 0.25; tau <= 16; tau *= 2) {
@@ -81,7 +84,7 @@ Result<void> run(const char* path, int views) {
                 state.metric = metric;
                 state.morph = morph;
                 state.tau_px = tau;
-                if (auto done = run_row(*terrain, *heights, state, cameras); !done) return done;
+                if (auto done = run_row(*terrain, ground, *heights, state, cameras); !done) return done;
             }
         }
     }

@@ -19,6 +19,7 @@ class HardViews : public testing::Test {
         : terrain_(make_terrain(
               geographic_frame(129, 129),
               make_heights(geographic_frame(129, 129), [](int c, int r) { return mountains(c, r) / 4; }))),
+          ground_(ground_of(terrain_)),
           heights_(must(viewer::EyeHeight::create(lod::VerticalDatum::ellipsoid))) {}
 
     ViewState at(double metres_above_ground) const {
@@ -29,12 +30,13 @@ class HardViews : public testing::Test {
 
     viewer::FinishedPicture draw(const ViewState& view, viewer::PictureRequest request = {}) const {
         if (request.width == 1280) request.width = 96, request.height = 64;
-        return must(viewer::draw_picture(terrain_, heights_, view, request));
+        return must(viewer::draw_picture(terrain_, ground_, heights_, view, request));
     }
 
     static bool bluish(const std::array<int, 3>& pixel) { return pixel[2] > pixel[1] && pixel[1] > pixel[0]; }
 
     lod::Terrain terrain_;
+    viewer::GroundData ground_;
     viewer::EyeHeight heights_;
 };
 

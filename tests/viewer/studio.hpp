@@ -26,13 +26,22 @@ T must(Result<T> result) {
     return *std::move(result);
 }
 
+inline void must(const Result<void>& result) {
+    if (!result) throw std::runtime_error(result.error().message);
+}
+
+/// The ground of a terrain in memory.
+inline viewer::GroundData ground_of(const lod::Terrain& terrain) {
+    return {.pyramid = terrain.pyramid().get(), .facts = must(viewer::ground_facts(*terrain.pyramid()))};
+}
+
 /// An off-screen context and a renderer for one terrain: draws any view of it.
 class Studio {
   public:
     explicit Studio(lod::Terrain terrain)
         : context_(must(viewer::OffscreenContext::create())),
           terrain_(std::make_unique<lod::Terrain>(std::move(terrain))),
-          renderer_(must(viewer::Renderer::create(*terrain_))),
+          renderer_(must(viewer::Renderer::create(*terrain_, ground_of(*terrain_)))),
           mesher_(*terrain_) {}
 
     const lod::Terrain& terrain() const { return *terrain_; }
@@ -44,7 +53,7 @@ class Studio {
         const lod::View view(camera);
         viewer::ViewState state = how;
         state.exaggeration = settings.exaggeration;
-        return draw(view, mesher_.mesh(view, state), settings, samples);
+        return draw(view, *must(mesher_.whole_mesh(view, state)), settings, samples);
     }
 
     viewer::Picture draw(const lod::View& view, const lod::Mesh& mesh, const viewer::DrawSettings& settings,
@@ -53,6 +62,7 @@ class Studio {
         const int height = view.camera().height;
         const auto target = must(viewer::RenderTarget::create(width, height, samples));
         renderer_.upload(mesh);
+        must(renderer_.complete(view, settings, {0, 0, width, height}));
         figures = must(renderer_.draw(view, settings, target, {}, true));
         viewer::Picture picture(width, height);
         target.read_into(picture, 0, 0);

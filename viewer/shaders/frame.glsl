@@ -2,7 +2,7 @@
 layout(std140, binding = 0) uniform Frame {
     mat4 clip_from_offset;  // offsets from the eye to clip space
     vec4 eye_up;            // the ellipsoid's normal at the eye; w: height of the eye above the base surface
-    vec4 grid;              // last column, last row, 1 / columns, 1 / rows
+    vec4 grid;              // last column, last row; those of the cells
     vec4 place;             // west, north, step along columns, step along rows; radians. With POLE: x and y of the first
                             // post in the plane of PolarPositions, growth of x with a row, of y with a column
     vec4 sun;               // along the grid's rows, up its columns, and up (east, north, up in a geographic one) where

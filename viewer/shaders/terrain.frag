@@ -1,7 +1,4 @@
-layout(binding = 0) uniform sampler2D posts;   // normal along row and up column, H from -1 to 1, validity; all times it
-layout(binding = 1) uniform usampler2D cells;  // 0 where a cell has a void corner
-layout(binding = 2) uniform sampler2D ramp;    // the layer's colours; in a second row those of the sea
-layout(binding = 3) uniform sampler2D sea;     // 1 at posts that are sea
+layout(binding = 2) uniform sampler2D ramp;  // the layer's colours; in a second row those of the sea
 
 #ifdef WIREFRAME
 in WiredSurface {
@@ -21,10 +18,6 @@ in Surface {
 surface;
 
 out vec4 colour;
-
-// Ground is seen at an angle: its mip level is that of its steepest direction, and blurs the other. (Anisotropic filters
-// cost sixty times as much in software.)
-const float kSharper = -0.8;
 
 // The ramp's first and last texels are its ends.
 vec3 ramp_colour(float at, float row) {
@@ -58,19 +51,18 @@ float on_edge(vec3 barycentric) {
 #endif
 
 void main() {
-    vec2 in_texture = (surface.grid + 0.5) * frame.grid.zw;
+    // All that needs the neighbours' values comes before the discard.
+    ivec2 cell = cell_at(surface.grid);
+    PagePlace place = page_place(surface.grid, cell);
 #if LAYER == 0 && defined(SEA)
-    // The waterline is half way between a post of land and one of sea, and a pixel wide. Before the discard, too.
-    float share = texture(sea, in_texture, kSharper).r;
+    // The waterline is half way between a post of land and one of sea, and a pixel wide.
+    float share = at_place(sea, place).r;
     float water = smoothstep(-0.7, 0.7, (share - 0.5) / max(fwidth(share), 1e-4));
 #endif
+    vec4 here = at_place(posts, place);
 #ifdef VOIDS
-    vec4 here = texture(posts, in_texture, kSharper);  // before the discard: its mip level needs the neighbours
-    ivec2 cell = clamp(ivec2(surface.grid), ivec2(0), textureSize(cells, 0) - 1);
-    if (texelFetch(cells, cell, 0).r == 0u) discard;
+    if (!is_whole(surface.grid, cell)) discard;
     here /= max(here.a, 1e-3);
-#else
-    vec4 here = texture(posts, in_texture, kSharper);
 #endif
     vec3 true_normal = vec3(here.xy, sqrt(max(1.0 - dot(here.xy, here.xy), 1e-6)));
     vec3 normal = normalize(vec3(true_normal.xy * frame.surface.x, true_normal.z));
