@@ -56,8 +56,8 @@ class Flight {
 
     Result<FlightFigures> run() {
         while (!window_.should_close()) {
-            const bool idle = !playing_ && !controls_.moving(window_) && options_.frames == 0 &&
-                              still_frames_ > kSettlingFrames && budget_rests() && renderer_.pending() == 0;
+            const bool idle = ground_rests() && !playing_ && !controls_.moving(window_) &&
+                              options_.frames == 0 && still_frames_ > kSettlingFrames && budget_rests();
             const Input& input = window_.poll(idle ? 0.5 : 0);
             still_frames_ = input.anything ? 0 : still_frames_ + 1;
             if (options_.must_close()) break;
@@ -87,6 +87,22 @@ class Flight {
     static constexpr int kSettlingFrames = 3;
     static constexpr double kMessageMs = 4000;
     static constexpr int kBudgetFrames = 100;
+
+    /// What arrives fades in.
+    static constexpr double kFadingMs = 1000;
+
+    /// Pieces of meshes and of what colours them that are being read.
+    std::size_t pending() const {
+        const lod::TileStore::Figures tiles = terrain_.tiles().figures();
+        const bool coming = view_.method != Method::full && !tiles.starved;  // else they have no room
+        return renderer_.pending() + (coming ? tiles.pending_tiles : 0);
+    }
+
+    /// Has all arrived, and faded in?
+    bool ground_rests() {
+        if (pending() > 0) last_pending_ = Clock::now();
+        return ms_since(last_pending_) > kFadingMs;
+    }
 
     bool message_expired() {
         if (message_.empty() || ms_since(message_since_) < kMessageMs) return false;
@@ -242,7 +258,7 @@ class Flight {
                                  .playing = playing_,
                                  .recording = !options_.record.empty(),
                                  .frame_ms = frame_times_.shown(),
-                                 .pending = renderer_.pending(),
+                                 .pending = pending(),
                                  .middle_distance_m = middle_distance_,
                                  .message = message_,
                                  .keys_shown = keys_shown_};
@@ -333,6 +349,7 @@ class Flight {
     std::string message_;
     Clock::time_point message_since_{};
     Clock::time_point last_frame_ = Clock::now();
+    Clock::time_point last_pending_{};
     int still_frames_ = 0;
     int screenshots_ = 0;
 
