@@ -18,27 +18,35 @@ namespace {
 
 using namespace relevo;
 
-void set_counters(benchmark::State& state, std::size_t triangles, std::size_t vertices) {
-    state.counters["vertices/tri"] = static_cast<double>(vertices) / static_cast<double>(triangles);
+/// An iteration is the whole flight, so that all methods see the same frames.
+void set_counters(benchmark::State& state, std::size_t frames, std::size_t triangles, std::size_t vertices) {
+    using benchmark::Counter;
+    const auto count = static_cast<double>(triangles);
+    state.counters["vertices/tri"] = static_cast<double>(vertices) / count;
     state.counters["triangles"] =
-        benchmark::Counter(static_cast<double>(triangles), benchmark::Counter::kAvgIterations);
-    state.counters["Mtri/s"] =
-        benchmark::Counter(static_cast<double>(triangles) * 1e-6, benchmark::Counter::kIsRate);
+        count / static_cast<double>(state.iterations()) / static_cast<double>(frames);
+    state.counters["Mtri/s"] = Counter(count * 1e-6, Counter::kIsRate);
+    state.counters["s/frame"] =
+        Counter(static_cast<double>(frames), Counter::kIsIterationInvariantRate | Counter::kInvert);
 }
 
 void shipped(benchmark::State& state, const lod::Terrain& terrain, const std::vector<lod::Camera>& cameras,
-             double tau, bool morph) {
+             lod::RefineOptions options) {
     lod::Refiner refiner(terrain);
+    for (const lod::Camera& camera : cameras) {
+        if (!refiner.refine_whole(lod::View(camera), options))
+            return state.SkipWithError("tiles are missing");
+    }
     std::size_t triangles = 0;
     std::size_t vertices = 0;
-    std::size_t k = 0;
     for (auto _ : state) {
-        const lod::View view(cameras[k++ % cameras.size()]);
-        const lod::Mesh& mesh = **refiner.refine_whole(view, {.tau_px = tau, .morph = morph});
-        triangles += mesh.triangles();
-        vertices += mesh.vertices.size();
+        for (const lod::Camera& camera : cameras) {
+            const lod::Mesh& mesh = refiner.refine(lod::View(camera), options);
+            triangles += mesh.triangles();
+            vertices += mesh.vertices.size();
+        }
     }
-    set_counters(state, triangles, vertices);
+    set_counters(state, cameras.size(), triangles, vertices);
 }
 
 /// The same cameras in the textbook's flat world: x east, y south, z up.
@@ -48,9 +56,7 @@ void textbook(benchmark::State& state, bench::Textbook& mesh, const lod::Scene& 
     const auto spacing = frame.spacing({0.5 * frame.columns, 0.5 * frame.rows});
     std::size_t triangles = 0;
     std::size_t vertices = 0;
-    std::size_t k = 0;
-    for (auto _ : state) {
-        const lod::Camera& camera = cameras[k++ % cameras.size()];
+    const auto refine = [&](const lod::Camera& camera) {
         const lod::View view(camera);
         const geo::GridPosition place = frame.grid_position({camera.eye.lat, camera.eye.lon});
         const glm::dvec3 eye(place.column * spacing.column_m, place.row * spacing.row_m, camera.eye.h.m);
@@ -61,12 +67,18 @@ void textbook(benchmark::State& state, bench::Textbook& mesh, const lod::Scene& 
             planes[i] = {glm::dot(plane, local.east()), -glm::dot(plane, local.north()),
                          glm::dot(plane, local.up())};
         }
-        vertices += mesh.refine(eye, planes, view.focal_px(), tau).size();
-        state.PauseTiming();
-        triangles += mesh.triangles();
-        state.ResumeTiming();
+        return mesh.refine(eye, planes, view.focal_px(), tau).size();
+    };
+    std::size_t triangles_a_flight = 0;
+    for (const lod::Camera& camera : cameras) {
+        refine(camera);
+        triangles_a_flight += mesh.triangles();
     }
-    set_counters(state, triangles, vertices);
+    for (auto _ : state) {
+        for (const lod::Camera& camera : cameras) vertices += refine(camera);
+        triangles += triangles_a_flight;
+    }
+    set_counters(state, cameras.size(), triangles, vertices);
 }
 
 }  // namespace
@@ -97,18 +109,24 @@ int main(int argc, char** argv) {
     for (const double tau : {0.25, 1.0}) {
         const auto name = [tau](const char* what) { return fmt::format("{}/tau:{}", what, tau); };
         const auto add = [&](const char* what, auto run) {
-            benchmark::RegisterBenchmark(name(what).c_str(), run)
+            return benchmark::RegisterBenchmark(name(what).c_str(), run)
                 ->Unit(benchmark::kMillisecond)
-                ->Repetitions(5);
+                ->Repetitions(5)
+                ->ReportAggregatesOnly();
+        };
+        const auto add_shipped = [&](const char* what, const lod::Terrain& terrain, bool morph,
+                                     bool parallel) {
+            const lod::RefineOptions options{.tau_px = tau, .morph = morph, .parallel = parallel};
+            return add(what,
+                       [&, options](benchmark::State& state) { shipped(state, terrain, cameras, options); });
         };
         add("textbook",
             [&, tau](benchmark::State& state) { textbook(state, yardstick, *scene, cameras, tau); });
-        add("soar-incremental",
-            [&, tau](benchmark::State& state) { shipped(state, *incremental, cameras, tau, false); });
-        add("soar-bounded",
-            [&, tau](benchmark::State& state) { shipped(state, *bounded, cameras, tau, false); });
-        add("soar-bounded-morph",
-            [&, tau](benchmark::State& state) { shipped(state, *bounded, cameras, tau, true); });
+        add_shipped("soar-incremental", *incremental, false, false);
+        add_shipped("soar-bounded", *bounded, false, false);
+        add_shipped("soar-bounded-morph", *bounded, true, false);
+        add_shipped("soar-bounded, all cores", *bounded, false, true)->UseRealTime();
+        add_shipped("soar-bounded-morph, all cores", *bounded, true, true)->UseRealTime();
     }
     benchmark::RunSpecifiedBenchmarks();
     return 0;
