@@ -6,8 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/command.hpp"
+#include "lod/pyramid/scene_pyramid.hpp"
+#include "lod/pyramid/whole_grid.hpp"
 #include "lod/scene_check.hpp"
-#include "lod/soar/stored_metrics.hpp"
 
 namespace relevo::app {
 
@@ -46,7 +47,9 @@ Result<void> damaged(const CheckOptions& options, std::string what) {
 Result<void> check_files(const lod::Scene& scene, const CheckOptions& options, Json& report) {
     const std::vector<std::string> faults = scene.verify();
     const lod::SceneInfo& info = scene.info();
-    report["files"] = info.heights.size() + info.marks.size() + info.metrics.size() + info.lattice.size() + 1;
+    std::size_t files = info.heights.size() + info.marks.size() + 1;
+    for (const lod::LevelInfo& level : info.levels) files += level.heights.size() + level.vertices.size();
+    report["files"] = files;
     report["damaged_files"] = faults;
     if (!options.json) {
         fmt::print("files: {}, damaged: {}\n", report["files"].dump(), faults.size());
@@ -58,11 +61,15 @@ Result<void> check_files(const lod::Scene& scene, const CheckOptions& options, J
 }
 
 Result<void> check_nesting(const lod::Scene& scene, const CheckOptions& options, Json& report) {
-    const auto heights = scene.read_all_heights();
-    if (!heights) return heights.error();
-    const auto metrics = lod::load_metrics(scene, *heights, scene.undulations());
-    if (!metrics) return metrics.error();
-    const std::uint64_t faults = lod::count_nesting_faults(scene.info().frame, *metrics);
+    const auto pyramid = lod::ScenePyramid::open(scene);
+    if (!pyramid) return pyramid.error();
+    auto bounded = lod::gather_codes(*pyramid, lod::ErrorMetric::bounded);
+    if (!bounded) return bounded.error();
+    auto incremental = lod::gather_codes(*pyramid, lod::ErrorMetric::incremental);
+    if (!incremental) return incremental.error();
+    const std::uint64_t faults = lod::count_nesting_faults(
+        scene.info().frame,
+        {std::move(bounded->error), std::move(incremental->error), std::move(incremental->radius)});
     report["nesting_faults"] = faults;
     if (!options.json) fmt::print("vertices with an error or sphere smaller than a child's: {}\n", faults);
     if (faults > 0) return damaged(options, fmt::format("{} vertices are not nested", faults));
@@ -80,7 +87,7 @@ Result<void> check_views(const lod::Scene& scene, const CheckOptions& options, J
     bool kept = true;
     for (const auto metric : {lod::ErrorMetric::bounded, lod::ErrorMetric::incremental}) {
         if (metric == lod::ErrorMetric::bounded && !scene.info().bounded_errors) continue;
-        const auto terrain = lod::Terrain::load(scene, metric);
+        const auto terrain = lod::Terrain::open(scene, metric, {.fade_s = 0});
         if (!terrain) return terrain.error();
         const auto cameras =
             lod::sample_views(*terrain, options.views, options.seed, options.width, options.height);

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <memory>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -30,24 +29,21 @@ struct Derived {
         : extent(info.frame.extent()),
           spacing(info.frame.spacing({(info.frame.columns - 1) / 2.0, (info.frame.rows - 1) / 2.0})),
           posts(info.valid_posts + info.void_posts),
-          height_bytes(sum(info.heights)),
-          metric_bytes(sum(info.metrics) + sum(info.lattice)) {}
+          height_bytes(lod::bytes_of(info.heights)) {
+        for (const lod::LevelInfo& level : info.levels) {
+            height_bytes += lod::bytes_of(level.heights);
+            metric_bytes += lod::bytes_of(level.vertices);
+        }
+    }
 
     double per_post(std::uint64_t bytes) const {
         return static_cast<double>(bytes) / static_cast<double>(posts);
-    }
-
-  private:
-    static std::uint64_t sum(const std::vector<lod::BlockInfo>& blocks) {
-        return std::accumulate(blocks.begin(), blocks.end(), std::uint64_t{0},
-                               [](std::uint64_t bytes, const auto& block) { return bytes + block.bytes; });
     }
 };
 
 void print_json(const lod::SceneInfo& info, const Derived& derived) {
     nlohmann::json json = lod::to_json(info);
-    for (const char* only_on_disk :
-         {"heights", "marks", "metrics", "lattice", "geoid", "block_side", "vertical_name"}) {
+    for (const char* only_on_disk : {"heights", "marks", "levels", "geoid", "block_side", "vertical_name"}) {
         json.erase(only_on_disk);
     }
     json["extent"] = {{"west", derived.extent.west},

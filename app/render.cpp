@@ -120,14 +120,15 @@ Result<void> run(const RenderFlags& flags) {
 
     const auto scene = lod::Scene::open(flags.scene);
     if (!scene) return scene.error();
-    const auto terrain = lod::Terrain::load(*scene, view->metric);
+    const auto terrain = lod::Terrain::open(*scene, view->metric, tile_options(flags.view, 0));
     if (!terrain) return terrain.error();
     const auto heights = viewer::EyeHeight::create(scene->info().vertical.datum);
     if (!heights) return heights.error();
     place_view(*view, flags.view, *scene, *terrain, *heights, *size);
 
     const viewer::GroundData ground{.pyramid = terrain->pyramid().get(),
-                                    .facts = viewer::ground_facts(scene->info())};
+                                    .facts = viewer::ground_facts(scene->info()),
+                                    .cache_bytes = texel_bytes(flags.view)};
 
     const viewer::PictureRequest request{.width = size->width,
                                          .height = size->height,

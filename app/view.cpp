@@ -92,7 +92,7 @@ Result<void> run(const WindowFlags& flags) {
 
     const auto scene = lod::Scene::open(flags.scene);
     if (!scene) return scene.error();
-    const auto terrain = lod::Terrain::load(*scene, view->metric);
+    const auto terrain = lod::Terrain::open(*scene, view->metric, tile_options(flags.view, 0.5));
     if (!terrain) return terrain.error();
     const auto heights = viewer::EyeHeight::create(scene->info().vertical.datum);
     if (!heights) return heights.error();
@@ -101,6 +101,7 @@ Result<void> run(const WindowFlags& flags) {
     const viewer::GroundData ground{
         .pyramid = terrain->pyramid().get(),
         .facts = viewer::ground_facts(scene->info()),
+        .cache_bytes = texel_bytes(flags.view),
         .report = [](const std::string& line) { fmt::print(stderr, "relevo view: {}\n", line); }};
 
     viewer::FlightOptions options{.width = size->width,

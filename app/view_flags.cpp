@@ -1,6 +1,8 @@
 #include "app/view_flags.hpp"
 
+#include <algorithm>
 #include <charconv>
+#include <cstdlib>
 
 #include <fmt/format.h>
 
@@ -67,6 +69,9 @@ void add_view_flags(CLI::App& command, ViewFlags& flags) {
     add("--layer", flags.layer, "hypsometric|hillshade|slope|lod", "What colours the ground [hypsometric]");
     add("--sun", flags.sun, "auto|AZ,EL|TIME", "Where the light comes from; TIME is ISO 8601 [auto: 315,45]");
     add("--samples", flags.samples, "1|4|8", "Samples a pixel, for smooth edges");
+    command.add_option("--memory", flags.memory, "Most memory for terrain and textures, e.g. 512MiB [1GiB]")
+        ->transform(CLI::AsSizeValue(false))
+        ->type_name("BYTES");
     command.add_flag("--wireframe", flags.wireframe, "Draw the mesh's edges, coloured by level");
 }
 
@@ -90,6 +95,21 @@ Result<viewer::BudgetLimits> read_budget(const BudgetFlags& flags) {
         return usage("--budget: 1 to 100000 milliseconds");
     if (flags.max_triangles && *flags.max_triangles < 100) return usage("--max-triangles: at least 100");
     return viewer::BudgetLimits{flags.budget_ms, flags.max_triangles};
+}
+
+lod::TileStoreOptions tile_options(const ViewFlags& flags, double fade_s) {
+    lod::TileStoreOptions options;
+    options.memory_bytes = static_cast<std::size_t>(flags.memory / 4);
+    options.fade_s = fade_s;
+    if (const char* delay = std::getenv("RELEVO_READ_DELAY_MS")) {
+        options.read_delay_s = std::atof(delay) / 1000;
+        options.threads = 8;  // that sleep most of the time
+    }
+    return options;
+}
+
+std::size_t texel_bytes(const ViewFlags& flags) {
+    return std::min(static_cast<std::size_t>(flags.memory / 4), viewer::GroundData{}.cache_bytes);
 }
 
 Result<viewer::ViewState> read_view(const ViewFlags& flags, const viewer::ViewState& base) {

@@ -26,8 +26,16 @@ struct ViewFlags {
     std::optional<double> heading, pitch, roll, fov, tau, exaggeration;
     bool wireframe = false;
     std::optional<int> samples;
+    std::uint64_t memory = std::uint64_t{1} << 30;
 };
 void add_view_flags(CLI::App& command, ViewFlags& flags);
+
+/// What --memory leaves for tiles. The environment variable RELEVO_READ_DELAY_MS delays each read of them, to
+/// try how a slow disk looks.
+/// \param fade_s  in which what arrives comes in
+lod::TileStoreOptions tile_options(const ViewFlags& flags, double fade_s);
+/// What it leaves for the ground's texels.
+std::size_t texel_bytes(const ViewFlags& flags);
 
 /// --budget and --max-triangles: what a frame may cost.
 struct BudgetFlags {

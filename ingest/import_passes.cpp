@@ -8,9 +8,8 @@
 #include "ingest/blocks_in_order.hpp"
 #include "ingest/posts/post_passes.hpp"
 #include "ingest/posts/survey.hpp"
-#include "lod/scene/scene_files.hpp"
+#include "lod/pyramid/pyramid_writer.hpp"
 #include "lod/soar/metrics.hpp"
-#include "lod/soar/stored_metrics.hpp"
 
 namespace relevo::ingest {
 namespace {
@@ -33,23 +32,6 @@ Window inside_of(const BlockGrid::Box& around, const BlockGrid::Box& box) {
 
 bool same_bits(const lod::Raster<float>& a, const lod::Raster<float>& b) {
     return std::memcmp(a.samples().data(), b.samples().data(), a.samples().size() * sizeof(float)) == 0;
-}
-
-Result<void> write_lattice(const lod::MetricRasters& lattice, int padded_side,
-                           const lod::SceneWriter& writer) {
-    auto layer = writer.layer(lod::kLatticeFolder);
-    if (!layer) return layer.error();
-    const BlockGrid grid = BlockGrid::of_lattice(padded_side);
-    const Progress none;
-    return blocks_in_order(grid.count(), Stage{none, 0, 1}, [&](int i) -> Result<void> {
-        const auto [column, row] = place_of(grid, i);
-        const BlockGrid::Box box = grid.box(column, row);
-        const auto bytes =
-            lod::encode_metrics({lod::part_of(lattice.bounded, box), lod::part_of(lattice.incremental, box),
-                                 lod::part_of(lattice.radius, box)});
-        if (!bytes) return bytes.error();
-        return layer->write(column, row, *bytes);
-    });
 }
 
 }  // namespace
@@ -128,21 +110,21 @@ Result<void> measure_posts(const lod::DraftPosts& posts, const lod::MeshHeights&
     lod::MetricBuilder metrics({frame, positions, undulations, fill}, info.bounded_errors
                                                                           ? lod::ObjectErrors::both
                                                                           : lod::ObjectErrors::incremental);
-    auto layer = writer.layer(lod::kMetricsFolder);
-    if (!layer) return layer.error();
+    auto pyramid = lod::PyramidWriter::open(writer, frame, info.height_type, fill,
+                                            [&](const BlockGrid::Box& box) { return posts.read(box); });
+    if (!pyramid) return pyramid.error();
     const int side = frame.padded_side();
     const BlockGrid tiles = BlockGrid::of_metrics(side);
     std::vector<Survey> surveys(static_cast<std::size_t>(tiles.count()));
     std::vector<Outliers> outliers(static_cast<std::size_t>(tiles.count()));
     const auto done = blocks_in_order(tiles.count(), stage, [&](int i) -> Result<void> {
-        const auto [column, row] = place_of(tiles, i);
+        const auto [column, row] = lod::PyramidWriter::tile_in_order(tiles, i);
         const BlockGrid::Box tile = tiles.box(column, row);
         const BlockGrid::Box window = lod::MetricTile::window_of(tile, side);
         const auto around = posts.read(window);
         if (!around) return around.error();
-        const auto bytes = lod::encode_metrics(lod::stored_part(metrics.add_tile(tile, around->heights)));
-        if (!bytes) return bytes.error();
-        if (auto written = layer->write(column, row, *bytes); !written) return written;
+        const lod::MetricRasters codes = metrics.add_tile(tile, around->heights);
+        if (auto written = pyramid->add_tile(column, row, codes); !written) return written;
 
         Window inside = inside_of(window, tile);
         inside.columns = std::min(inside.columns, around->heights.columns() - inside.column);
@@ -163,7 +145,7 @@ Result<void> measure_posts(const lod::DraftPosts& posts, const lod::MeshHeights&
         for (const Outliers& part : outliers) found.add(part);
         list_outliers(found, info);
     }
-    return write_lattice(metrics.finish(), side, writer);
+    return pyramid->finish(metrics.finish());
 }
 
 }  // namespace relevo::ingest

@@ -27,8 +27,8 @@ Result<void> finish_posts(const lod::DraftPosts& cleaned, const geo::GridFrame& 
 
 void list_outliers(const Outliers& outliers, lod::SceneInfo& info);
 
-/// Builds and writes the metrics of finished posts, and fills in what `info` says of these; of outliers only
-/// where `count_outliers`: else they were found before they were replaced.
+/// Builds the metrics of finished posts and writes the pyramid over them, and fills in what `info` says of
+/// these; of outliers only where `count_outliers`: else they were found before they were replaced.
 Result<void> measure_posts(const lod::DraftPosts& posts, const lod::MeshHeights& fill,
                            const lod::UndulationGrid& undulations, const lod::SceneWriter& writer,
                            bool count_outliers, lod::SceneInfo& info, const Stage& stage);

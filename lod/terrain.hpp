@@ -25,8 +25,9 @@ class Terrain {
     static Result<Terrain> open(std::shared_ptr<const Pyramid> pyramid, UndulationGrid undulations,
                                 ErrorMetric metric, const TileStoreOptions& options);
 
-    /// The whole scene in memory.
-    static Result<Terrain> load(const Scene& scene, ErrorMetric metric);
+    /// Of a scene. The incremental error serves in place of the bounded one where a scene was imported
+    /// without that.
+    static Result<Terrain> open(const Scene& scene, ErrorMetric metric, const TileStoreOptions& options);
 
     /// From rasters in memory: heights of the data (void = NaN) and the metrics of the padded grid. Tiles
     /// come at once when they are waited for. \param sea  255 at posts of the class sea, else 0; empty: there
@@ -62,7 +63,7 @@ class Terrain {
 
   private:
     struct Parts {
-        Parts(std::shared_ptr<const Pyramid> of, UndulationGrid N);
+        Parts(std::shared_ptr<const Pyramid> of, UndulationGrid N, std::size_t posts_bytes);
 
         std::shared_ptr<const Pyramid> pyramid;
         geo::PostPositions positions;

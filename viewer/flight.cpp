@@ -188,8 +188,8 @@ class Flight {
         const auto hit_at = [&](const glm::dvec2& pixel) {
             return lod::pick(terrain_, view.eye(), view.ray(pixel), view_.exaggeration);
         };
-        const auto measure = [&](const glm::dvec2& pixel) -> Result<std::optional<lod::PointMeasurement>> {
-            const auto hit = hit_at(pixel);
+        const auto measure =
+            [&](const std::optional<lod::Hit>& hit) -> Result<std::optional<lod::PointMeasurement>> {
             if (!hit) return std::optional<lod::PointMeasurement>{};
             geo::LatLon place = terrain_.frame().lat_lon(hit->place);
             place.lon = geo::wrapped_180(place.lon);  // a grid runs on across the antimeridian
@@ -199,12 +199,14 @@ class Flight {
         };
         cursor_.reset();
         if (input.cursor_inside) {
-            auto under = measure(input.cursor);
+            auto under = measure(hit_at(input.cursor));
             if (!under) return under.error();
             cursor_ = *under;
         }
         for (const glm::dvec2& click : input.clicks) {
-            const auto point = measure(click);
+            // What is measured does not depend on what is in memory.
+            const auto point =
+                measure(lod::pick_exactly(terrain_, view.eye(), view.ray(click), view_.exaggeration));
             if (!point) return point.error();
             if (*point) {
                 ruler_.add(**point);

@@ -10,7 +10,7 @@ namespace relevo::lod {
 
 namespace {
 
-using Normal = GroundPosts::Normal;
+using Normal = Ground::Normal;
 
 std::int16_t snorm(double value) {
     return static_cast<std::int16_t>(std::lround(std::clamp(value, -1.0, 1.0) * 32767));

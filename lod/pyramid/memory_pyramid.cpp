@@ -13,22 +13,6 @@ namespace {
 
 constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
 
-/// Heights with one post more to each side.
-Raster<float> with_border(const geo::GridFrame& frame, const Raster<float>& heights) {
-    const int columns = heights.columns();
-    Raster<float> around(columns + 2, heights.rows() + 2, kVoid);
-    for (int row = 0; row < heights.rows(); ++row) {
-        const float* from = heights.row(row);
-        float* to = around.row(row + 1);
-        std::copy_n(from, columns, to + 1);
-        if (frame.closes()) {
-            to[0] = from[columns - 2];
-            to[columns + 1] = from[1];
-        }
-    }
-    return around;
-}
-
 PostClass class_of(float height, bool is_sea) {
     if (std::isnan(height)) return PostClass::void_post;
     return is_sea ? PostClass::sea : PostClass::land;
@@ -37,8 +21,9 @@ PostClass class_of(float height, bool is_sea) {
 Ground finest_ground(const geo::GridFrame& frame, const Raster<float>& heights,
                      const Raster<std::uint8_t>& sea) {
     Ground ground(heights.columns(), heights.rows());
-    ground.normals =
-        GroundNormals(frame).of({0, 0, heights.columns(), heights.rows()}, with_border(frame, heights));
+    const BlockGrid::Box all{0, 0, heights.columns(), heights.rows()};
+    const auto part = [&](const BlockGrid::Box& box) { return Result(part_of(heights, box)); };
+    ground.normals = GroundNormals(frame).of(all, *with_border(frame, all, part));
     for (std::size_t i = 0; i < heights.samples().size(); ++i) {
         const bool is_sea = !sea.samples().empty() && sea.samples()[i] != 0;
         ground.classes.samples()[i] = static_cast<std::uint8_t>(class_of(heights.samples()[i], is_sea));

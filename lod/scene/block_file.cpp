@@ -182,7 +182,7 @@ Result<std::vector<std::byte>> encode_block(std::span<const T> samples, BlockSha
 
 template <class T>
 Result<std::vector<T>> decode_block(std::span<const std::byte> bytes, BlockShape shape,
-                                    const std::string& name) {
+                                    const std::string& name, std::span<const int> bands) {
     const QuietGdal quiet;
     const MemoryFile memory(bytes);
     const GDALDatasetUniquePtr file = open_block(memory);
@@ -193,9 +193,12 @@ Result<std::vector<T>> decode_block(std::span<const std::byte> bytes, BlockShape
         return not_read(name, fmt::format("it does not hold {} x {} samples of the scene's type in {} bands",
                                           shape.columns, shape.rows, shape.bands));
     }
+    // GDAL wants a pointer to non-const numbers, and only reads them.
+    int* const chosen = bands.empty() ? nullptr : const_cast<int*>(bands.data());
+    if (!bands.empty()) shape.bands = static_cast<int>(bands.size());
     std::vector<T> samples(shape.samples());
     if (file->RasterIO(GF_Read, 0, 0, shape.columns, shape.rows, samples.data(), shape.columns, shape.rows,
-                       gdal_type<T>(), shape.bands, nullptr, 0, 0, 0, nullptr) != CE_None) {
+                       gdal_type<T>(), shape.bands, chosen, 0, 0, 0, nullptr) != CE_None) {
         return not_read(name, QuietGdal::message());
     }
     return samples;
@@ -218,11 +221,12 @@ template Result<std::vector<std::byte>> encode_block(std::span<const std::uint8_
 template Result<std::vector<std::byte>> encode_block(std::span<const float>, BlockShape,
                                                      const std::optional<GeoReference>&, double);
 template Result<std::vector<std::int16_t>> decode_block(std::span<const std::byte>, BlockShape,
-                                                        const std::string&);
+                                                        const std::string&, std::span<const int>);
 template Result<std::vector<std::uint16_t>> decode_block(std::span<const std::byte>, BlockShape,
-                                                         const std::string&);
+                                                         const std::string&, std::span<const int>);
 template Result<std::vector<std::uint8_t>> decode_block(std::span<const std::byte>, BlockShape,
-                                                        const std::string&);
-template Result<std::vector<float>> decode_block(std::span<const std::byte>, BlockShape, const std::string&);
+                                                        const std::string&, std::span<const int>);
+template Result<std::vector<float>> decode_block(std::span<const std::byte>, BlockShape, const std::string&,
+                                                 std::span<const int>);
 
 }  // namespace relevo::lod

@@ -40,10 +40,11 @@ Result<std::vector<std::byte>> encode_block(std::span<const T> samples, BlockSha
                                             const std::optional<GeoReference>& where, double max_error = 0);
 
 /// The samples in the bytes of a block file, which must have exactly that shape and type.
-/// \param name  for the message; fails with ErrorKind::damaged
+/// \param name   for the message; fails with ErrorKind::damaged
+/// \param bands  those to read, from 1, in the order in which they are wanted; none: all
 template <class T>
 Result<std::vector<T>> decode_block(std::span<const std::byte> bytes, BlockShape shape,
-                                    const std::string& name);
+                                    const std::string& name, std::span<const int> bands = {});
 
 /// Size of the image in the bytes of a block file of floats.
 Result<BlockShape> block_shape(std::span<const std::byte> bytes, const std::string& name);

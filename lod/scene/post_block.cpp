@@ -1,7 +1,6 @@
 #include "lod/scene/post_block.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -9,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "lod/scene/block_file.hpp"
-#include "lod/scene/metric_code.hpp"
 #include "lod/scene/scene_files.hpp"
 
 namespace relevo::lod {
@@ -69,11 +67,6 @@ PostMark plain_mark(float height) {
     return std::isnan(height) ? PostMark{} : PostMark{PostClass::land, 0};
 }
 
-// The two bytes of a code lie in bands of their own: exponents repeat and mantissas do not, and coders like
-// them apart.
-constexpr int kBandsOfCode = 2;
-constexpr unsigned kMantissaMask = (1u << kCodeMantissaBits) - 1;
-
 }  // namespace
 
 Result<std::vector<std::byte>> encode_heights(const Raster<float>& heights, const HeightCoding& coding,
@@ -122,49 +115,6 @@ Result<Raster<PostMark>> decode_marks(std::span<const std::byte> bytes, const Ra
         marks.samples()[i] = mark;
     }
     return marks;
-}
-
-Result<std::vector<std::byte>> encode_metrics(const MetricRasters& codes) {
-    const auto is_zero = [](std::uint16_t code) { return code == 0; };
-    const std::array layers{&codes.bounded, &codes.incremental, &codes.radius};
-    if (std::ranges::all_of(
-            layers, [&](const auto* layer) { return std::ranges::all_of(layer->samples(), is_zero); }))
-        return std::vector<std::byte>{};
-    std::vector<std::uint8_t> samples;
-    samples.reserve(layers.size() * kBandsOfCode * codes.radius.samples().size());
-    for (const auto* layer : layers) {
-        for (const std::uint16_t code : layer->samples())
-            samples.push_back(static_cast<std::uint8_t>(code >> kCodeMantissaBits));
-        for (const std::uint16_t code : layer->samples())
-            samples.push_back(static_cast<std::uint8_t>(code & kMantissaMask));
-    }
-    const int bands = static_cast<int>(layers.size()) * kBandsOfCode;
-    return encode_block<std::uint8_t>(samples, {codes.radius.columns(), codes.radius.rows(), bands},
-                                      std::nullopt);
-}
-
-Result<MetricRasters> decode_metrics(std::span<const std::byte> bytes, int columns, int rows,
-                                     const std::string& name) {
-    MetricRasters codes{Raster<std::uint16_t>(columns, rows), Raster<std::uint16_t>(columns, rows),
-                        Raster<std::uint16_t>(columns, rows)};
-    if (bytes.empty()) return codes;
-    const std::array layers{&codes.bounded, &codes.incremental, &codes.radius};
-    const int bands = static_cast<int>(layers.size()) * kBandsOfCode;
-    const auto samples = decode_block<std::uint8_t>(bytes, {columns, rows, bands}, name);
-    if (!samples) return samples.error();
-    const std::uint8_t* exponent = samples->data();
-    for (auto* layer : layers) {
-        const std::size_t count = layer->samples().size();
-        const std::uint8_t* mantissa = exponent + count;
-        for (std::size_t i = 0; i < count; ++i) {
-            const unsigned code = static_cast<unsigned>(exponent[i]) << kCodeMantissaBits | mantissa[i];
-            if (mantissa[i] > kMantissaMask || code > kLargestCode)
-                return Error{ErrorKind::damaged, fmt::format("{} is damaged: its codes are none", name)};
-            layer->samples()[i] = static_cast<std::uint16_t>(code);
-        }
-        exponent = mantissa + count;
-    }
-    return codes;
 }
 
 }  // namespace relevo::lod

@@ -38,11 +38,4 @@ Result<std::vector<std::byte>> encode_marks(const Raster<PostMark>& marks, const
 Result<Raster<PostMark>> decode_marks(std::span<const std::byte> bytes, const Raster<float>& heights,
                                       const std::string& name);
 
-/// The bytes of a block of metric codes; empty where all are 0.
-Result<std::vector<std::byte>> encode_metrics(const MetricRasters& codes);
-
-/// No bytes: all 0. \pre columns, rows > 0
-Result<MetricRasters> decode_metrics(std::span<const std::byte> bytes, int columns, int rows,
-                                     const std::string& name);
-
 }  // namespace relevo::lod

@@ -1,6 +1,7 @@
 #include "lod/scene/scene.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <utility>
 
@@ -125,44 +126,47 @@ Result<Raster<PostMark>> Scene::read_marks(int block_column, int block_row,
     return decode_marks(*bytes, heights, name_of(kMarksFolder, block_column, block_row));
 }
 
-Result<MetricRasters> Scene::read_metrics(int block_column, int block_row) const {
-    const BlockGrid::Box box = BlockGrid::of_metrics(info_.frame.padded_side()).box(block_column, block_row);
-    const auto bytes = read_block(info_.metrics, block_column, block_row);
+bool Scene::has_level_block(int level, int block_column, int block_row) const {
+    return find_block(info_.level(level).vertices, block_column, block_row) != nullptr;
+}
+
+Result<Raster<float>> Scene::read_level_heights(int level, int block_column, int block_row) const {
+    assert(has_level_block(level, block_column, block_row));
+    const auto bytes = read_block(info_.level(level).heights, block_column, block_row);
     if (!bytes) return bytes.error();
-    return decode_metrics(*bytes, (box.columns + 1) / 2, (box.rows + 1) / 2,
-                          name_of(kMetricsFolder, block_column, block_row));
+    return decode_level_heights(*bytes, info_.height_type,
+                                name_of(level_folder(kHeightsFolder, level), block_column, block_row));
 }
 
-Result<MetricRasters> Scene::read_lattice() const {
-    const BlockGrid grid = BlockGrid::of_lattice(info_.frame.padded_side());
-    MetricRasters lattice{Raster<std::uint16_t>(grid.columns, grid.rows),
-                          Raster<std::uint16_t>(grid.columns, grid.rows),
-                          Raster<std::uint16_t>(grid.columns, grid.rows)};
-    const Result<void> done =
-        for_each_block(static_cast<int>(info_.lattice.size()), [&](int i) -> Result<void> {
-            const BlockInfo& block = info_.lattice[static_cast<std::size_t>(i)];
-            const auto bytes = read_block(block);
-            if (!bytes) return bytes.error();
-            const BlockGrid::Box box = grid.box(block.column, block.row);
-            const auto codes = decode_metrics(*bytes, box.columns, box.rows, (path_ / block.file).string());
-            if (!codes) return codes.error();
-            paste(codes->bounded, box, lattice.bounded);
-            paste(codes->incremental, box, lattice.incremental);
-            paste(codes->radius, box, lattice.radius);
-            return {};
-        });
-    if (!done) return done.error();
-    return lattice;
+Result<VertexCodes> Scene::read_codes(int level, int block_column, int block_row, ErrorMetric metric) const {
+    assert(has_level_block(level, block_column, block_row));
+    const auto bytes = read_block(info_.level(level).vertices, block_column, block_row);
+    if (!bytes) return bytes.error();
+    return decode_codes(*bytes, metric,
+                        name_of(level_folder(kVerticesFolder, level), block_column, block_row));
 }
 
-std::string Scene::name_of(const char* layer, int block_column, int block_row) const {
+Result<Ground> Scene::read_level_ground(int level, int block_column, int block_row) const {
+    assert(has_level_block(level, block_column, block_row));
+    const auto bytes = read_block(info_.level(level).vertices, block_column, block_row);
+    if (!bytes) return bytes.error();
+    return decode_ground(*bytes, name_of(level_folder(kVerticesFolder, level), block_column, block_row));
+}
+
+std::string Scene::name_of(const std::string& layer, int block_column, int block_row) const {
     return (path_ / block_file_name(layer, block_column, block_row)).string();
 }
 
 std::vector<std::string> Scene::verify() const {
     std::vector<const BlockInfo*> blocks;
-    for (const auto* layer : {&info_.heights, &info_.marks, &info_.metrics, &info_.lattice}) {
-        for (const BlockInfo& block : *layer) blocks.push_back(&block);
+    const auto add = [&](const std::vector<BlockInfo>& layer) {
+        for (const BlockInfo& block : layer) blocks.push_back(&block);
+    };
+    add(info_.heights);
+    add(info_.marks);
+    for (const LevelInfo& level : info_.levels) {
+        add(level.heights);
+        add(level.vertices);
     }
     if (!info_.geoid.file.file.empty()) blocks.push_back(&info_.geoid.file);
 

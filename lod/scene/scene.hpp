@@ -8,6 +8,7 @@
 
 #include "geo/geoid.hpp"
 #include "geo/result.hpp"
+#include "lod/scene/level_block.hpp"
 #include "lod/scene/post_mark.hpp"
 #include "lod/scene/raster.hpp"
 #include "lod/scene/scene_info.hpp"
@@ -46,12 +47,19 @@ class Scene {
     /// Marks of one block; those of voids say void. \param heights  as read_heights gave them
     Result<Raster<PostMark>> read_marks(int block_column, int block_row, const Raster<float>& heights) const;
 
-    /// Metric codes of a block of BlockGrid::of_metrics, every 2nd post: without the last level's vertices,
-    /// which follow from the heights (soar/stored_metrics.hpp), and 0 at posts of the lattice.
-    Result<MetricRasters> read_metrics(int block_column, int block_row) const;
+    /// Is a block of a level of the pyramid stored (from level 1 on)? Else nothing of it is ever drawn: in
+    /// the diamonds of the vertices that are new in it there is no valid post.
+    bool has_level_block(int level, int block_column, int block_row) const;
 
-    /// Metric codes of the whole lattice: every 8th post of the padded grid.
-    Result<MetricRasters> read_lattice() const;
+    /// Heights H of such a block, voids and padding filled for meshes. \pre it is stored; as for both below
+    Result<Raster<float>> read_level_heights(int level, int block_column, int block_row) const;
+
+    /// Codes of the vertices that are new at the level, at odd columns or rows of its grid; at the coarsest
+    /// level of all. Others are 0.
+    Result<VertexCodes> read_codes(int level, int block_column, int block_row, ErrorMetric metric) const;
+
+    /// Classes and mean normals of the block's posts; padding is void.
+    Result<Ground> read_level_ground(int level, int block_column, int block_row) const;
 
     /// Reads every file and compares it with its checksum; the messages name each damaged block. Empty: all
     /// is well.
@@ -63,7 +71,7 @@ class Scene {
     Result<std::vector<std::byte>> read_block(const BlockInfo& block) const;
     /// Empty where the layer does not store the block.
     Result<std::vector<std::byte>> read_block(const std::vector<BlockInfo>& layer, int column, int row) const;
-    std::string name_of(const char* layer, int block_column, int block_row) const;
+    std::string name_of(const std::string& layer, int block_column, int block_row) const;
 
     std::filesystem::path path_;
     std::shared_ptr<const Folder> folder_;

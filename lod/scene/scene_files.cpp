@@ -53,7 +53,11 @@ std::string checksum(nlohmann::json json) {
 
 }  // namespace
 
-std::string block_file_name(const char* folder, int block_column, int block_row) {
+std::string level_folder(const char* folder, int level) {
+    return fmt::format("{}-{}", folder, level);
+}
+
+std::string block_file_name(const std::string& folder, int block_column, int block_row) {
     return fmt::format("{}/r{:04}-c{:04}.tif", folder, block_row, block_column);
 }
 

@@ -12,12 +12,15 @@ inline constexpr const char* kSceneFile = "scene.json";
 inline constexpr const char* kMosaicFile = "heights.vrt";
 inline constexpr const char* kHeightsFolder = "heights";
 inline constexpr const char* kMarksFolder = "marks";
-inline constexpr const char* kMetricsFolder = "metrics";
-inline constexpr const char* kLatticeFolder = "lattice";
+inline constexpr const char* kVerticesFolder = "vertices";
 inline constexpr const char* kGeoidFile = "geoid.tif";
 
+/// "heights-3": where the blocks of a level of the pyramid are, from level 1 on. \param folder kHeightsFolder
+/// or kVerticesFolder
+std::string level_folder(const char* folder, int level);
+
 /// "heights/r0000-c0001.tif": the only name that a block may have.
-std::string block_file_name(const char* folder, int block_column, int block_row);
+std::string block_file_name(const std::string& folder, int block_column, int block_row);
 
 /// Where the samples of a block of heights lie, from its first post.
 GeoReference geo_reference(const geo::GridFrame& frame, int column, int row);

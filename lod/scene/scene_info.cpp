@@ -1,5 +1,6 @@
 #include "lod/scene/scene_info.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "geo/geoid_nodes.hpp"
 #include "lod/scene/block_grid.hpp"
 #include "lod/scene/json_fields.hpp"
+#include "lod/scene/level_grid.hpp"
 #include "lod/scene/post_mark.hpp"
 #include "lod/scene/scene_files.hpp"
 
@@ -89,13 +91,6 @@ OutlierInfo outlier_from(JsonFields& fields) {
     return outlier;
 }
 
-template <class T>
-nlohmann::json list_to_json(const std::vector<T>& values) {
-    nlohmann::json json = nlohmann::json::array();
-    for (const T& value : values) json.push_back(to_json(value));
-    return json;
-}
-
 nlohmann::json file_to_json(const BlockInfo& block) {
     return {{"file", block.file}, {"sha256", block.sha256}, {"bytes", block.bytes}};
 }
@@ -147,12 +142,13 @@ GeoidInfo geoid_from(JsonFields fields) {
     return geoid;
 }
 
-std::vector<BlockInfo> blocks_from(JsonFields& scene, const char* key, const BlockGrid& grid) {
+std::vector<BlockInfo> blocks_from(JsonFields& scene, const char* key, const std::string& folder, int across,
+                                   int down) {
     std::vector<BlockInfo> blocks;
     scene.each(key, [&](JsonFields& fields) {
-        const int column = fields.integer("column", 0, grid.across - 1);
-        const int row = fields.integer("row", 0, grid.down - 1);
-        BlockInfo block = block_from(fields, block_file_name(key, column, row));
+        const int column = fields.integer("column", 0, across - 1);
+        const int row = fields.integer("row", 0, down - 1);
+        BlockInfo block = block_from(fields, block_file_name(folder, column, row));
         block.column = column;
         block.row = row;
         if (!blocks.empty() && std::pair(blocks.back().row, blocks.back().column) >= std::pair(row, column)) {
@@ -161,6 +157,38 @@ std::vector<BlockInfo> blocks_from(JsonFields& scene, const char* key, const Blo
         blocks.push_back(std::move(block));
     });
     return blocks;
+}
+
+nlohmann::json to_json(const LevelInfo& level) {
+    return {{kHeightsFolder, to_json(level.heights)}, {kVerticesFolder, to_json(level.vertices)}};
+}
+
+template <class T>
+nlohmann::json list_to_json(const std::vector<T>& values) {
+    nlohmann::json json = nlohmann::json::array();
+    for (const T& value : values) json.push_back(to_json(value));
+    return json;
+}
+
+std::vector<LevelInfo> levels_from(JsonFields& scene, const geo::GridFrame& frame) {
+    const int top = LevelGrid::top(frame.levels());
+    std::vector<LevelInfo> levels;
+    scene.each("levels", [&](JsonFields& fields) {
+        const int k = static_cast<int>(levels.size()) + 1;
+        if (k > top) return scene.wrong("levels", "are too many");
+        const int across = LevelGrid::blocks(frame.levels(), k);
+        const auto blocks = [&](const char* name) {
+            return blocks_from(fields, name, level_folder(name, k), across, across);
+        };
+        levels.push_back({blocks(kHeightsFolder), blocks(kVerticesFolder)});
+        const auto same_place = [](const BlockInfo& a, const BlockInfo& b) {
+            return a.column == b.column && a.row == b.row;
+        };
+        if (!std::ranges::equal(levels.back().heights, levels.back().vertices, same_place))
+            fields.wrong(kVerticesFolder, "are not of the blocks that heights are of");
+    });
+    if (static_cast<int>(levels.size()) < top) scene.wrong("levels", "are too few");
+    return levels;
 }
 
 nlohmann::json to_json(const geo::GridFrame& frame) {
@@ -261,12 +289,10 @@ void read_statistics(JsonFields& fields, SceneInfo& info) {
 
 void read_files(JsonFields& fields, SceneInfo& info) {
     const BlockGrid heights = BlockGrid::of_heights(info.frame.columns, info.frame.rows);
-    info.heights = blocks_from(fields, kHeightsFolder, heights);
-    info.marks = blocks_from(fields, kMarksFolder, heights);
+    info.heights = blocks_from(fields, kHeightsFolder, kHeightsFolder, heights.across, heights.down);
+    info.marks = blocks_from(fields, kMarksFolder, kMarksFolder, heights.across, heights.down);
     info.bounded_errors = fields.flag("bounded_errors");
-    const int side = info.frame.padded_side();
-    info.metrics = blocks_from(fields, kMetricsFolder, BlockGrid::of_metrics(side));
-    info.lattice = blocks_from(fields, kLatticeFolder, BlockGrid::of_lattice(side));
+    info.levels = levels_from(fields, info.frame);
     if (!fields.is_null("geoid")) info.geoid = geoid_from(fields.object("geoid"));
     if (!voids_fit(info, heights)) fields.wrong("heights", "lacks blocks that hold valid posts");
 }
@@ -274,11 +300,14 @@ void read_files(JsonFields& fields, SceneInfo& info) {
 }  // namespace
 
 std::uint64_t SceneInfo::bytes() const {
-    const auto add = [](std::uint64_t sum, const BlockInfo& block) { return sum + block.bytes; };
-    std::uint64_t sum = geoid.file.bytes;
-    for (const auto* layer : {&heights, &marks, &metrics, &lattice})
-        sum = std::accumulate(layer->begin(), layer->end(), sum, add);
+    std::uint64_t sum = geoid.file.bytes + bytes_of(heights) + bytes_of(marks);
+    for (const LevelInfo& level : levels) sum += bytes_of(level.heights) + bytes_of(level.vertices);
     return sum;
+}
+
+std::uint64_t bytes_of(const std::vector<BlockInfo>& blocks) {
+    return std::accumulate(blocks.begin(), blocks.end(), std::uint64_t{0},
+                           [](std::uint64_t sum, const BlockInfo& block) { return sum + block.bytes; });
 }
 
 const char* to_string(VerticalDatum datum) {
@@ -348,8 +377,7 @@ nlohmann::json to_json(const SceneInfo& info) {
             {"heights", to_json(info.heights)},
             {"marks", to_json(info.marks)},
             {"bounded_errors", info.bounded_errors},
-            {"metrics", to_json(info.metrics)},
-            {"lattice", to_json(info.lattice)},
+            {"levels", list_to_json(info.levels)},
             {"geoid", to_json(info.geoid)}};
 }
 

@@ -96,9 +96,18 @@ struct GeoidInfo {
     int columns = 0;
 };
 
+/// A level of the scene's pyramid: the same blocks twice.
+struct LevelInfo {
+    std::vector<BlockInfo> heights;
+    std::vector<BlockInfo> vertices;
+};
+
+/// On disk, of all of them.
+std::uint64_t bytes_of(const std::vector<BlockInfo>& blocks);
+
 /// What scene.json says.
 struct SceneInfo {
-    static constexpr int kFormatVersion = 2;
+    static constexpr int kFormatVersion = 3;
     static constexpr int kBlockSide = 512;  ///< posts a side of a block; blocks of heights do not overlap
 
     geo::GridFrame frame;
@@ -129,9 +138,10 @@ struct SceneInfo {
     std::vector<std::string> notes;  ///< of several sources: what was assumed or converted, for people
     std::vector<BlockInfo> heights;
     std::vector<BlockInfo> marks;
-    bool bounded_errors = true;  ///< else the metrics hold the incremental error alone
-    std::vector<BlockInfo> metrics;
-    std::vector<BlockInfo> lattice;
+    bool bounded_errors = true;     ///< else vertices have the incremental error alone
+    std::vector<LevelInfo> levels;  ///< of the pyramid, from level 1 to the coarsest
+    /// \pre it is from 1 to the coarsest
+    const LevelInfo& level(int k) const { return levels.at(static_cast<std::size_t>(k) - 1); }
     GeoidInfo geoid;
 
     std::uint64_t bytes() const;  ///< of all data files

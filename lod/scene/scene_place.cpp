@@ -34,18 +34,30 @@ fs::path lock_file(const fs::path& target) {
     return target.parent_path() / hidden_name(target, "lock");
 }
 
+/// Is it the name of a folder of a level of a pyramid, as level_folder gives it?
+bool is_level(const std::string& name) {
+    constexpr int kMost = 32;
+    for (int level = 1; level <= kMost; ++level) {
+        for (const char* folder : {kHeightsFolder, kVerticesFolder})
+            if (name == level_folder(folder, level)) return true;
+    }
+    return false;
+}
+
 /// Nothing of somebody else's is ever deleted: a scene has scene.json, and nothing but a scene's files and
 /// what GDAL and QGIS leave beside a raster.
 bool holds_only_a_scene(const fs::path& folder) {
-    constexpr const char* kOfFormat1 = "undulation.tif";
-    constexpr std::array<std::string_view, 8> kNames{kSceneFile,   kMosaicFile,    kHeightsFolder,
-                                                     kMarksFolder, kMetricsFolder, kLatticeFolder,
-                                                     kGeoidFile,   kOfFormat1};
+    constexpr std::array<std::string_view, 5> kNames{kSceneFile, kMosaicFile, kHeightsFolder, kMarksFolder,
+                                                     kGeoidFile};
+    constexpr std::array<std::string_view, 3> kOfOlderFormats{"undulation.tif", "metrics", "lattice"};
+    const auto is_among = [](const auto& names, const std::string& name) {
+        return std::ranges::find(names, name) != names.end();
+    };
     std::error_code error;
     if (!fs::is_regular_file(folder / kSceneFile, error)) return false;
     for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
         const std::string name = it->path().filename().string();
-        const bool known = std::ranges::find(kNames, name) != kNames.end();
+        const bool known = is_among(kNames, name) || is_among(kOfOlderFormats, name) || is_level(name);
         if (!known && !name.ends_with(".aux.xml") && !name.ends_with(".qmd")) return false;
     }
     return !error;

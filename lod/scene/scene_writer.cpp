@@ -8,6 +8,7 @@
 
 #include "lod/scene/folder.hpp"
 #include "lod/scene/geoid_block.hpp"
+#include "lod/scene/level_grid.hpp"
 #include "lod/scene/scene_files.hpp"
 #include "lod/scene/sha256.hpp"
 
@@ -49,7 +50,7 @@ void SceneWriter::keep_for_resume() {
     state_->place.keep();
 }
 
-Result<BlockStore> SceneWriter::layer(const char* name) const {
+Result<BlockStore> SceneWriter::layer(const std::string& name) const {
     return BlockStore::open(state_->folder(), name);
 }
 
@@ -65,9 +66,9 @@ Result<DraftPosts> SceneWriter::posts(const geo::GridFrame& frame, const HeightC
 Result<DraftPosts> SceneWriter::draft(const std::string& name, const geo::GridFrame& frame,
                                       const HeightCoding& coding, std::uint64_t cache_bytes) const {
     const std::array layers{name + "-" + kHeightsFolder, name + "-" + kMarksFolder};
-    auto heights = layer(layers[0].c_str());
+    auto heights = layer(layers[0]);
     if (!heights) return heights.error();
-    auto marks = layer(layers[1].c_str());
+    auto marks = layer(layers[1]);
     if (!marks) return marks.error();
     state_->draft_layers.insert(state_->draft_layers.end(), layers.begin(), layers.end());
     return DraftPosts(std::move(*heights), std::move(*marks), frame, coding, cache_bytes);
@@ -84,11 +85,14 @@ Result<void> SceneWriter::write_geoid(const geo::GeoidNodes& nodes) {
 }
 
 Result<void> SceneWriter::commit(SceneInfo info) {
-    const std::array<std::pair<const char*, std::vector<BlockInfo>*>, 4> layers{
-        {{kHeightsFolder, &info.heights},
-         {kMarksFolder, &info.marks},
-         {kMetricsFolder, &info.metrics},
-         {kLatticeFolder, &info.lattice}}};
+    info.levels.resize(static_cast<std::size_t>(LevelGrid::top(info.frame.levels())));
+    std::vector<std::pair<std::string, std::vector<BlockInfo>*>> layers{{kHeightsFolder, &info.heights},
+                                                                        {kMarksFolder, &info.marks}};
+    for (int k = 1; k <= static_cast<int>(info.levels.size()); ++k) {
+        LevelInfo& level = info.levels[static_cast<std::size_t>(k) - 1];
+        layers.emplace_back(level_folder(kHeightsFolder, k), &level.heights);
+        layers.emplace_back(level_folder(kVerticesFolder, k), &level.vertices);
+    }
     std::vector<BlockStore> stores;
     for (const auto& [name, blocks] : layers) {
         auto store = BlockStore::open(state_->folder(), name);

@@ -39,8 +39,8 @@ class SceneWriter {
     /// Those of a step on the way to them. \param name  of its folders; the writer deletes them at last
     Result<DraftPosts> draft(const std::string& name, const geo::GridFrame& frame, const HeightCoding& coding,
                              std::uint64_t cache_bytes) const;
-    /// Another layer: kMetricsFolder or kLatticeFolder.
-    Result<BlockStore> layer(const char* name) const;
+    /// Another layer: of a level of the pyramid (level_folder).
+    Result<BlockStore> layer(const std::string& name) const;
 
     /// The geoid around the scene; none for heights above the ellipsoid.
     Result<void> write_geoid(const geo::GeoidNodes& nodes);

@@ -89,11 +89,14 @@ MetricBuilder::~MetricBuilder() = default;
 
 MetricRasters MetricBuilder::add_tile(const BlockGrid::Box& tile, const Raster<float>& heights) {
     auto work = workspaces_->take();
-    const BlockGrid::Box window = MetricTile::window_of(tile, ground_.frame.padded_side());
+    const int side = ground_.frame.padded_side();
+    const BlockGrid::Box window = MetricTile::window_of(tile, side);
+    const BlockGrid::Box bordered{tile.column, tile.row, std::min(tile.columns + 1, side - tile.column),
+                                  std::min(tile.rows + 1, side - tile.row)};
     work->posts.begin(ground_, window, heights);
     MetricRasters codes;
     if (!work->posts.any_valid()) {
-        const Raster<std::uint16_t> none(tile.columns, tile.rows);
+        const Raster<std::uint16_t> none(bordered.columns, bordered.rows);
         codes = {none, none, none};
     } else {
         const bool scanned = errors_ == ObjectErrors::both && lattice_levels_ > 0;
@@ -111,7 +114,7 @@ MetricRasters MetricBuilder::add_tile(const BlockGrid::Box& tile, const Raster<f
         }
         join_fine(*work, tile);
         if (scanned) scan_coarse(*work, tile);
-        codes = work->fine.codes(tile);
+        codes = work->fine.codes(bordered);
     }
     workspaces_->give_back(std::move(work));
     return codes;
@@ -286,9 +289,10 @@ MetricRasters build_metrics(const geo::GridFrame& frame, const UndulationGrid& u
         const BlockGrid::Box tile = grid.box(i % grid.across, i / grid.across);
         const BlockGrid::Box window = MetricTile::window_of(tile, side);
         const MetricRasters codes = builder.add_tile(tile, part_of(heights, window));
-        paste(codes.bounded, tile, all.bounded);
-        paste(codes.incremental, tile, all.incremental);
-        paste(codes.radius, tile, all.radius);
+        const BlockGrid::Box own{0, 0, tile.columns, tile.rows};
+        paste(part_of(codes.bounded, own), tile, all.bounded);
+        paste(part_of(codes.incremental, own), tile, all.incremental);
+        paste(part_of(codes.radius, own), tile, all.radius);
     });
     const MetricRasters lattice = builder.finish();
     for (int row = 0; row < side; row += kSpacing) {

@@ -28,8 +28,9 @@ class MetricBuilder {
     MetricBuilder(const MeshGround& ground, ObjectErrors errors);
     ~MetricBuilder();
 
-    /// Codes of the fine vertices of a tile (0 at posts of the lattice). May be called from several threads.
-    /// \param heights  H of the data in MetricTile::window_of(tile), void = NaN
+    /// Codes of the fine vertices of a tile and of the column and the row beyond it, which border it to the
+    /// next ones (0 at posts of the lattice). May be called from several threads. \param heights  H of the
+    /// data in MetricTile::window_of(tile), void = NaN
     MetricRasters add_tile(const BlockGrid::Box& tile, const Raster<float>& heights);
 
     /// Codes of the lattice: at (i, j) those of post (8 i, 8 j). To be called once, after all tiles.

@@ -94,8 +94,9 @@ int main(int argc, char** argv) {
         fmt::print(stderr, "{}\n", scene.error().message);
         return 3;
     }
-    const auto bounded = lod::Terrain::load(*scene, lod::ErrorMetric::bounded);
-    const auto incremental = lod::Terrain::load(*scene, lod::ErrorMetric::incremental);
+    const lod::TileStoreOptions all{.memory_bytes = std::size_t{4} << 30, .fade_s = 0};
+    const auto bounded = lod::Terrain::open(*scene, lod::ErrorMetric::bounded, all);
+    const auto incremental = lod::Terrain::open(*scene, lod::ErrorMetric::incremental, all);
     const auto heights = scene->read_all_heights();
     if (!bounded || !incremental || !heights) {
         fmt::print(stderr, "{}: cannot be read\n", argv[1]);

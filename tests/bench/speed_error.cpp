@@ -73,7 +73,7 @@ Result<void> run(const char* path, int views) {
     fmt::print(
         "metric,morph,tau_px,triangles_median,refine_ms_median,frame_ms_median,max_error_px,rms_error_px\n");
     for (const auto metric : {lod::ErrorMetric::bounded, lod::ErrorMetric::incremental}) {
-        const auto terrain = lod::Terrain::load(*scene, metric);
+        const auto terrain = lod::Terrain::open(*scene, metric, {.fade_s = 0});
         if (!terrain) return terrain.error();
         const viewer::GroundData ground{.pyramid = terrain->pyramid().get(),
                                         .facts = viewer::ground_facts(scene->info())};

@@ -5,6 +5,7 @@
 
 #include "lod/scene_check.hpp"
 #include "tests/ingest/importing.hpp"
+#include "tests/lod/same_pyramid.hpp"
 #include "tests/lod/scratch_scene.hpp"
 #include "tests/shared_data.hpp"
 
@@ -40,7 +41,7 @@ TEST_P(RealDems, KeepTheErrorOnEveryView) {
     ASSERT_TRUE(imported) << imported.error().message;
     const auto scene = Scene::open(folder / "real.relevo");
     ASSERT_TRUE(scene) << scene.error().message;
-    const auto terrain = Terrain::load(*scene, ErrorMetric::bounded);
+    const auto terrain = Terrain::open(*scene, ErrorMetric::bounded, {.fade_s = 0});
     ASSERT_TRUE(terrain) << terrain.error().message;
 
     const auto cameras = sample_views(*terrain, 8, 20261122, 480, 270);
@@ -57,6 +58,36 @@ TEST_P(RealDems, KeepTheErrorOnEveryView) {
             EXPECT_EQ(check.torn_posts, 0);
         }
     }
+}
+
+// What is read block by block, of every level, is what the whole of it has in memory.
+TEST_P(RealDems, HaveOnePyramidOnDiskAndInMemory) {
+    RELEVO_NEEDS_DATA(GetParam().file);
+    const test::SceneFolder folder;
+    ingest::ImportOptions options = test::options_for(test::shared_data(GetParam().file));
+    if (*GetParam().crs != '\0') options.mosaic.sources.front().crs = GetParam().crs;
+    ASSERT_TRUE(ingest::import_scene(options, {folder / "real.relevo"}));
+    const auto scene = Scene::open(folder / "real.relevo");
+    ASSERT_TRUE(scene) << scene.error().message;
+    const auto heights = scene->read_all_heights();
+    ASSERT_TRUE(heights);
+    Raster<std::uint8_t> sea(heights->columns(), heights->rows());
+    const BlockGrid grid = BlockGrid::of_heights(heights->columns(), heights->rows());
+    for (int i = 0; i < grid.count(); ++i) {
+        const BlockGrid::Box box = grid.box(i % grid.across, i / grid.across);
+        const auto marks = scene->read_marks(i % grid.across, i / grid.across, part_of(*heights, box));
+        ASSERT_TRUE(marks);
+        for (int row = 0; row < box.rows; ++row) {
+            for (int column = 0; column < box.columns; ++column)
+                sea.at(box.column + column, box.row + row) =
+                    marks->at(column, row).post_class() == PostClass::sea ? 255 : 0;
+        }
+    }
+    const auto pyramid = ScenePyramid::open(*scene);
+    ASSERT_TRUE(pyramid) << pyramid.error().message;
+    const geo::GridFrame& frame = scene->info().frame;
+    test::expect_same_pyramid(
+        *pyramid, MemoryPyramid(frame, *heights, build_metrics(frame, scene->undulations(), *heights), sea));
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalogue, RealDems, testing::ValuesIn(kDems),

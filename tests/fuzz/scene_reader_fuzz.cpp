@@ -1,4 +1,5 @@
-// Bytes as the files of a scene: the first says which, the second the sides of a block, the rest is the file.
+// Bytes as the files of a scene: the first says which, the second the sides of a block (where it has not one size), the
+// rest is the file.
 // With RELEVO_FUZZ_GOOD in the environment all must be accepted: a seed that is refused leads nowhere.
 #include <cmath>
 #include <cstddef>
@@ -12,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lod/scene/geoid_block.hpp"
+#include "lod/scene/level_block.hpp"
 #include "lod/scene/metric_code.hpp"
 #include "lod/scene/post_block.hpp"
 #include "lod/scene/scene_files.hpp"
@@ -58,13 +60,32 @@ bool read_marks(std::span<const std::byte> bytes, int side) {
     return true;
 }
 
-bool read_metrics(std::span<const std::byte> bytes, int side) {
-    const auto codes = lod::decode_metrics(bytes, side, side, "block");
-    if (!codes) return false;
-    for (const auto* layer : {&codes->bounded, &codes->incremental, &codes->radius})
-        for (const std::uint16_t code : layer->samples())
-            if (code > lod::kLargestCode) std::abort();
+bool read_level_heights(std::span<const std::byte> bytes, lod::HeightType type) {
+    const auto heights = lod::decode_level_heights(bytes, type, "block");
+    if (!heights) return false;
+    for (const float H : heights->samples())
+        if (!std::isfinite(H)) std::abort();
     return true;
+}
+
+bool read_vertices(std::span<const std::byte> bytes) {
+    bool accepted = true;
+    for (const auto metric : {lod::ErrorMetric::bounded, lod::ErrorMetric::incremental}) {
+        const auto codes = lod::decode_codes(bytes, metric, "block");
+        accepted = accepted && codes;
+        if (!codes) continue;
+        for (const auto* layer : {&codes->error, &codes->radius})
+            for (const std::uint16_t code : layer->samples())
+                if (code > lod::kLargestCode) std::abort();
+    }
+    const auto ground = lod::decode_ground(bytes, "block");
+    if (!ground) return false;
+    for (std::size_t i = 0; i < ground->classes.samples().size(); ++i) {
+        const auto known = static_cast<lod::PostClass>(ground->classes.samples()[i]);
+        const bool is_flat = ground->normals.samples()[i] == lod::Ground::Normal{};
+        if (known > lod::PostClass::sea || (known == lod::PostClass::void_post && !is_flat)) std::abort();
+    }
+    return accepted;
 }
 
 bool read_geoid(std::span<const std::byte> bytes, int side) {
@@ -85,8 +106,12 @@ bool read(std::uint8_t kind, int side, std::span<const std::byte> bytes) {
             return read_heights(bytes, lod::HeightType::float32, side);
         case 'm':
             return read_marks(bytes, side);
-        case 'e':
-            return read_metrics(bytes, side);
+        case 'I':
+            return read_level_heights(bytes, lod::HeightType::int16);
+        case 'F':
+            return read_level_heights(bytes, lod::HeightType::float32);
+        case 'v':
+            return read_vertices(bytes);
         case 'g':
             return read_geoid(bytes, side);
         default:

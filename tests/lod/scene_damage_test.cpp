@@ -34,8 +34,18 @@ Result<void> read_all(const fs::path& path) {
         const auto marks = scene->read_marks(block.column, block.row, lod::part_of(*heights, box));
         if (!marks) return marks.error();
     }
-    if (const auto metrics = lod::load_metrics(*scene, *heights, scene->undulations()); !metrics)
-        return metrics.error();
+    for (int level = 1; level <= static_cast<int>(scene->info().levels.size()); ++level) {
+        for (const lod::BlockInfo& block : scene->info().level(level).vertices) {
+            if (const auto read = scene->read_level_heights(level, block.column, block.row); !read)
+                return read.error();
+            for (const auto metric : {lod::ErrorMetric::bounded, lod::ErrorMetric::incremental}) {
+                const auto read = scene->read_codes(level, block.column, block.row, metric);
+                if (!read) return read.error();
+            }
+            if (const auto read = scene->read_level_ground(level, block.column, block.row); !read)
+                return read.error();
+        }
+    }
     return {};
 }
 
@@ -77,8 +87,8 @@ TEST_F(SceneDamage, EveryBlockMissingIsNamed) {
     std::vector<std::string> files;
     for (const auto& [name, text] : all_files(path_)) files.push_back(name);
     ASSERT_EQ(files.size(),
-              2U + 2 + 2 + 1 + 3);  // 2 blocks each of heights, marks and metrics, the lattice, the
-                                    // geoid, the JSON, the VRT
+              2U + 2 + 2 * (2 + 1) + 3);  // 2 blocks each of heights and marks, of heights and of vertices 2
+                                          // at level 1 and one at level 2; the geoid, the JSON, the VRT
     for (const std::string& file : files) {
         if (file == "heights.vrt" || file == "scene.json") continue;
         const std::string text = contents(path_ / file);
@@ -130,13 +140,13 @@ TEST_F(SceneDamage, EveryFileCutShortIsFound) {
 
 TEST_F(SceneDamage, VerifyNamesEveryDamagedBlock) {
     replace(path_ / "heights/r0000-c0001.tif", "x");
-    fs::remove(path_ / "metrics/r0000-c0000.tif");
+    fs::remove(path_ / "vertices-1/r0000-c0000.tif");
     const auto scene = Scene::open(path_);
     ASSERT_TRUE(scene);
     const auto messages = scene->verify();
     ASSERT_EQ(messages.size(), 2U);
     EXPECT_NE(messages[0].find("heights/r0000-c0001.tif"), std::string::npos);
-    EXPECT_NE(messages[1].find("metrics/r0000-c0000.tif"), std::string::npos);
+    EXPECT_NE(messages[1].find("vertices-1/r0000-c0000.tif"), std::string::npos);
 }
 
 TEST_F(SceneDamage, ANewerFormatIsNotCalledDamage) {
@@ -145,6 +155,15 @@ TEST_F(SceneDamage, ANewerFormatIsNotCalledDamage) {
     json.erase("frame");
     replace(json_, json.dump());
     expect_error(read_all(path_), ErrorKind::input, "newer Relevo");
+}
+
+TEST_F(SceneDamage, AnOlderFormatAsksForAnotherImport) {
+    auto json = nlohmann::json::parse(contents(json_));
+    for (const int version : {1, 2}) {
+        json["format_version"] = version;
+        replace(json_, json.dump());
+        expect_error(read_all(path_), ErrorKind::input, "import its sources again");
+    }
 }
 
 TEST_F(SceneDamage, ChangedByHandIsFound) {
@@ -215,7 +234,7 @@ std::string sha256_of(const std::string& text) {
 class SmallSceneDamage : public testing::Test {
   protected:
     void SetUp() override {
-        SceneParts parts = made_up_scene(20, 10);
+        SceneParts parts = made_up_scene(260, 3);
         parts.marks = lod::plain_marks(parts.heights);
         parts.marks.at(0, 0).set_class(lod::PostClass::sea);
         ASSERT_TRUE(write_scene(parts, path_));
@@ -282,7 +301,8 @@ TEST_F(SmallSceneDamage, FlippedBitsUnderTheirOwnChecksum) {
         if (i % 3 == 0) flipped.resize(random() % text.size());
         replace(path_ / file, flipped);
         lod::SceneInfo forged = *info;
-        for (auto* layer : {&forged.heights, &forged.marks, &forged.metrics, &forged.lattice}) {
+        lod::LevelInfo& level = forged.levels.at(0);
+        for (auto* layer : {&forged.heights, &forged.marks, &level.heights, &level.vertices}) {
             if (layer->at(0).file == file) layer->at(0).sha256 = sha256_of(flipped);
         }
         if (forged.geoid.file.file == file) forged.geoid.file.sha256 = sha256_of(flipped);
@@ -342,48 +362,53 @@ TEST(SceneInfoJson, NonsenseIsRefused) {
 
     const auto huge = nlohmann::json::parse("1e400", nullptr, false);  // discarded by the parser
     EXPECT_TRUE(huge.is_discarded());
-    const std::pair<const char*, const char*> edits[] = {{"/format_version", "0"},
-                                                         {"/format_version", "\"1\""},
-                                                         {"/format_version", "-1"},
-                                                         {"/frame", "[]"},
-                                                         {"/frame/kind", "\"toroidal\""},
-                                                         {"/frame/west", "1e300"},
-                                                         {"/frame/west", "null"},
-                                                         {"/frame/north", "91"},
-                                                         {"/frame/step_x", "0"},
-                                                         {"/frame/step_x", "-1"},
-                                                         {"/frame/step_y", "100"},
-                                                         {"/frame/columns", "0"},
-                                                         {"/frame/columns", "-5"},
-                                                         {"/frame/columns", "4294967297"},
-                                                         {"/frame/columns", "18446744073709551615"},
-                                                         {"/frame/columns", "600.5"},
-                                                         {"/frame/rows", "99999999"},
-                                                         {"/frame/rows", "39"},
-                                                         {"/vertical_datum", "\"navd88\""},
-                                                         {"/vertical_assumed", "1"},
-                                                         {"/height_type", "\"int8\""},
-                                                         {"/height_min_m", "1e9"},
-                                                         {"/height_max_m", "-5"},
-                                                         {"/valid_posts", "5"},
-                                                         {"/void_posts", "1e3"},
-                                                         {"/resampling", "null"},
-                                                         {"/resampling/rms_m", "-1"},
-                                                         {"/sources", "{}"},
-                                                         {"/sources/0", "7"},
-                                                         {"/sources/0/columns", "\"many\""},
-                                                         {"/block_side", "256"},
-                                                         {"/heights", "[]"},
-                                                         {"/heights/0/column", "1"},
-                                                         {"/heights/1/column", "2"},
-                                                         {"/heights/0/file", "\"../../etc/passwd\""},
-                                                         {"/heights/0/file", "\"/etc/passwd\""},
-                                                         {"/heights/0/bytes", "-1"},
-                                                         {"/metrics/0/row", "1"},
-                                                         {"/geoid", "[]"},
-                                                         {"/geoid/rows", "1000000"},
-                                                         {"/geoid/south", "-91"},
-                                                         {"/geoid/file", "\"heights.vrt\""}};
+    const std::pair<const char*, const char*> edits[] = {
+        {"/format_version", "0"},
+        {"/format_version", "\"1\""},
+        {"/format_version", "-1"},
+        {"/frame", "[]"},
+        {"/frame/kind", "\"toroidal\""},
+        {"/frame/west", "1e300"},
+        {"/frame/west", "null"},
+        {"/frame/north", "91"},
+        {"/frame/step_x", "0"},
+        {"/frame/step_x", "-1"},
+        {"/frame/step_y", "100"},
+        {"/frame/columns", "0"},
+        {"/frame/columns", "-5"},
+        {"/frame/columns", "4294967297"},
+        {"/frame/columns", "18446744073709551615"},
+        {"/frame/columns", "600.5"},
+        {"/frame/rows", "99999999"},
+        {"/frame/rows", "39"},
+        {"/vertical_datum", "\"navd88\""},
+        {"/vertical_assumed", "1"},
+        {"/height_type", "\"int8\""},
+        {"/height_min_m", "1e9"},
+        {"/height_max_m", "-5"},
+        {"/valid_posts", "5"},
+        {"/void_posts", "1e3"},
+        {"/resampling", "null"},
+        {"/resampling/rms_m", "-1"},
+        {"/sources", "{}"},
+        {"/sources/0", "7"},
+        {"/sources/0/columns", "\"many\""},
+        {"/block_side", "256"},
+        {"/heights", "[]"},
+        {"/heights/0/column", "1"},
+        {"/heights/1/column", "2"},
+        {"/heights/0/file", "\"../../etc/passwd\""},
+        {"/heights/0/file", "\"/etc/passwd\""},
+        {"/heights/0/bytes", "-1"},
+        {"/levels", "[]"},
+        {"/levels/0/vertices/0/row", "1"},
+        {"/levels/0/heights", "[]"},
+        {"/levels/0/heights/0/file", "\"heights/r0000-c0000.tif\""},
+        {"/levels/2", "{\"heights\": [], \"vertices\": []}"},
+        {"/geoid", "[]"},
+        {"/geoid/rows", "1000000"},
+        {"/geoid/south", "-91"},
+        {"/geoid/file", "\"heights.vrt\""}};
     for (const auto& [where, value] : edits) {
         auto json = good;
         json[nlohmann::json::json_pointer(where)] = nlohmann::json::parse(value);

@@ -32,7 +32,7 @@ TEST_P(SceneShapes, ComeBackBitByBit) {
         const auto heights = scene->read_all_heights();
         ASSERT_TRUE(heights) << heights.error().message;
         EXPECT_TRUE(same_bits(*heights, parts.heights));
-        const auto metrics = lod::load_metrics(*scene, *heights, scene->undulations());
+        const auto metrics = metrics_of(*scene);
         ASSERT_TRUE(metrics) << metrics.error().message;
         EXPECT_EQ(metrics->bounded.samples(), parts.metrics.bounded.samples());
         EXPECT_EQ(metrics->incremental.samples(), parts.metrics.incremental.samples());
@@ -83,13 +83,12 @@ TEST(SceneRoundTrip, BlocksOfVoidsAndOfZeroMetricsCostNothing) {
     const auto scene = Scene::open(folder / "a.relevo");
     ASSERT_TRUE(scene) << scene.error().message;
     EXPECT_EQ(scene->info().heights.size(), 1U);
-    EXPECT_EQ(scene->info().metrics.size(), 1U);
+    for (const lod::LevelInfo& level : scene->info().levels) EXPECT_EQ(level.vertices.size(), 1U);
     EXPECT_EQ(scene->info().marks.size(), 0U);
     const auto heights = scene->read_all_heights();
     ASSERT_TRUE(heights);
     EXPECT_TRUE(same_bits(*heights, parts.heights));
-    EXPECT_EQ(lod::load_metrics(*scene, *heights, scene->undulations())->radius.samples(),
-              parts.metrics.radius.samples());
+    EXPECT_EQ(metrics_of(*scene)->radius.samples(), parts.metrics.radius.samples());
 }
 
 TEST(SceneRoundTrip, HeightsAboveTheEllipsoidNeedNoUndulations) {

@@ -31,10 +31,11 @@ using Names = std::vector<std::string>;
 
 TEST(SceneWriter, LeavesTheSceneAndNothingElse) {
     const SceneFolder folder;
-    ASSERT_TRUE(write_scene(made_up_scene(9, 9), folder / "a.relevo"));
+    ASSERT_TRUE(write_scene(made_up_scene(600, 9), folder / "a.relevo"));
     EXPECT_EQ(names_in(folder.path()), Names{"a.relevo"});
     EXPECT_EQ(names_in(folder / "a.relevo"),
-              (Names{"geoid.tif", "heights", "heights.vrt", "lattice", "marks", "metrics", "scene.json"}));
+              (Names{"geoid.tif", "heights", "heights-1", "heights-2", "heights.vrt", "marks", "scene.json",
+                     "vertices-1", "vertices-2"}));
 }
 
 TEST(SceneWriter, LeavesNothingWithoutACommit) {

@@ -16,12 +16,14 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "lod/pyramid/pyramid_writer.hpp"
+#include "lod/pyramid/scene_pyramid.hpp"
+#include "lod/pyramid/whole_grid.hpp"
 #include "lod/scene/parallel_blocks.hpp"
 #include "lod/scene/scene.hpp"
 #include "lod/scene/scene_files.hpp"
 #include "lod/scene/scene_writer.hpp"
 #include "lod/soar/metrics.hpp"
-#include "lod/soar/stored_metrics.hpp"
 
 namespace relevo::test {
 
@@ -153,29 +155,6 @@ inline SceneParts made_up_scene(int columns, int rows, lod::HeightType type = lo
     return parts;
 }
 
-inline Result<void> write_layer(lod::BlockStore& store, const lod::MetricRasters& codes,
-                                const lod::BlockGrid& grid, bool stored_part) {
-    return lod::for_each_block(grid.count(), [&](int i) -> Result<void> {
-        const int column = i % grid.across;
-        const int row = i / grid.across;
-        const auto box = grid.box(column, row);
-        lod::MetricRasters part{lod::part_of(codes.bounded, box), lod::part_of(codes.incremental, box),
-                                lod::part_of(codes.radius, box)};
-        if (stored_part) {
-            const int step = lod::BlockGrid::kLatticeSpacing;
-            for (auto* raster : {&part.bounded, &part.incremental, &part.radius}) {
-                for (int y = 0; y < raster->rows(); y += step) {
-                    for (int x = 0; x < raster->columns(); x += step) raster->at(x, y) = 0;
-                }
-            }
-            part = lod::stored_part(part);
-        }
-        const auto bytes = lod::encode_metrics(part);
-        if (!bytes) return bytes.error();
-        return store.write(column, row, *bytes);
-    });
-}
-
 /// Every 8th post of the codes of a padded grid.
 inline lod::MetricRasters lattice_of(const lod::MetricRasters& codes) {
     const int step = lod::BlockGrid::kLatticeSpacing;
@@ -203,26 +182,65 @@ inline Result<void> write_posts(const lod::SceneWriter& writer, const SceneParts
     });
 }
 
+/// A part of codes without those of the lattice.
+inline lod::MetricRasters fine_part(const lod::MetricRasters& codes, const lod::BlockGrid::Box& box) {
+    const int step = lod::BlockGrid::kLatticeSpacing;
+    const auto part = [&](const lod::Raster<std::uint16_t>& all) {
+        auto some = lod::part_of(all, box);
+        for (int y = 0; y < some.rows(); y += step) {
+            for (int x = 0; x < some.columns(); x += step) some.at(x, y) = 0;
+        }
+        return some;
+    };
+    return {part(codes.bounded), part(codes.incremental), part(codes.radius)};
+}
+
+inline Result<void> write_pyramid(const lod::SceneWriter& writer, const SceneParts& parts) {
+    const geo::GridFrame& frame = parts.info.frame;
+    lod::MeshHeights fill(frame);
+    fill.add(0, 0, parts.heights);
+    fill.finish();
+    const auto marks = parts.marks.columns() > 0 ? parts.marks : lod::plain_marks(parts.heights);
+    auto pyramid = lod::PyramidWriter::open(
+        writer, frame, parts.info.height_type, fill, [&](const lod::BlockGrid::Box& box) {
+            return Result(lod::Posts{lod::part_of(parts.heights, box), lod::part_of(marks, box)});
+        });
+    if (!pyramid) return pyramid.error();
+    const auto tiles = lod::BlockGrid::of_metrics(frame.padded_side());
+    const auto done = lod::for_each_block(tiles.count(), [&](int i) {
+        const auto [column, row] = lod::PyramidWriter::tile_in_order(tiles, i);
+        auto box = tiles.box(column, row);
+        ++box.columns;
+        ++box.rows;
+        return pyramid->add_tile(column, row, fine_part(parts.metrics, box));
+    });
+    if (!done) return done;
+    return pyramid->finish(lattice_of(parts.metrics));
+}
+
 /// Writes a scene, with its geoid unless its heights are above the ellipsoid.
 inline Result<void> write_scene(const SceneParts& parts, const std::filesystem::path& path,
                                 bool overwrite = false) {
     auto writer = lod::SceneWriter::create(path, {.overwrite = overwrite});
     if (!writer) return writer.error();
     if (auto done = write_posts(*writer, parts); !done) return done;
-    const int side = parts.info.frame.padded_side();
-    auto metrics = writer->layer(lod::kMetricsFolder);
-    if (!metrics) return metrics.error();
-    if (auto done = write_layer(*metrics, parts.metrics, lod::BlockGrid::of_metrics(side), true); !done)
-        return done;
-    auto lattice = writer->layer(lod::kLatticeFolder);
-    if (!lattice) return lattice.error();
-    if (auto done = write_layer(*lattice, lattice_of(parts.metrics), lod::BlockGrid::of_lattice(side), false);
-        !done)
-        return done;
+    if (auto done = write_pyramid(*writer, parts); !done) return done;
     if (parts.geoid) {
         if (auto done = writer->write_geoid(*parts.geoid); !done) return done;
     }
     return writer->commit(parts.info);
+}
+
+/// The metrics of a scene's whole padded grid.
+inline Result<lod::MetricRasters> metrics_of(const lod::Scene& scene) {
+    const auto pyramid = lod::ScenePyramid::open(scene);
+    if (!pyramid) return pyramid.error();
+    auto bounded = lod::gather_codes(*pyramid, lod::ErrorMetric::bounded);
+    if (!bounded) return bounded.error();
+    auto incremental = lod::gather_codes(*pyramid, lod::ErrorMetric::incremental);
+    if (!incremental) return incremental.error();
+    return lod::MetricRasters{std::move(bounded->error), std::move(incremental->error),
+                              std::move(bounded->radius)};
 }
 
 }  // namespace relevo::test
