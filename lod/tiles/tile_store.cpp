@@ -79,6 +79,7 @@ void TileStore::for_each_dependence(const TileId& id, Visit visit) const {
 }
 
 void TileStore::start_frame() {
+    if (used_.exchange(false)) last_drawn_ = frame_++;
     std::vector<Arrival> arrivals;
     {
         const std::lock_guard lock(mutex_);
@@ -88,7 +89,6 @@ void TileStore::start_frame() {
     take_in(arrivals);
     if (changed || fading_) update_presence();
     renew_wishes();
-    ++frame_;
 }
 
 void TileStore::take_in(std::vector<Arrival>& arrivals) {
@@ -108,7 +108,7 @@ void TileStore::take_in(std::vector<Arrival>& arrivals) {
             if (place || resident_bytes_ + tile->tile.bytes() > options_.memory_bytes) continue;
             resident_bytes_ += tile->tile.bytes();
             tile->arrived = now;
-            tile->used_in_frame = frame_;
+            tile->used_in_frame = last_drawn_;
             residents_.push_back(tile.get());
             place = std::move(tile);
         }
@@ -124,12 +124,12 @@ void TileStore::make_room(std::size_t bytes) {
     // Finest first: what a kept tile depends on is marked before it is met.
     std::vector<Resident*> idle;
     for (auto at = residents_.rbegin(); at != residents_.rend(); ++at) {
-        if ((*at)->used_in_frame < frame_) {
+        if ((*at)->used_in_frame < last_drawn_) {
             idle.push_back(*at);
             continue;
         }
         for_each_dependence((*at)->tile.id(), [&](const TileId& id) {
-            if (Resident* other = slot(id).get()) other->used_in_frame = frame_;
+            if (Resident* other = slot(id).get()) other->used_in_frame = last_drawn_;
         });
     }
     std::stable_sort(idle.begin(), idle.end(), [](const Resident* a, const Resident* b) {
@@ -173,17 +173,20 @@ void TileStore::update_presence() {
 }
 
 void TileStore::use(const Resident& tile) const {
+    if (!used_.load(std::memory_order_relaxed)) used_.store(true, std::memory_order_relaxed);
     std::atomic_ref<std::uint64_t>(const_cast<Resident&>(tile).used_in_frame)
         .store(frame_, std::memory_order_relaxed);
 }
 
 void TileStore::want(const TileId& id, double urgency, Need need) const {
     if (!grid_.holds_data(id)) return;
-    const std::lock_guard lock(wishes_mutex_);
-    wishes_.push_back({id, urgency, need});
-    // It may be there and have to wait for what it depends on.
+    if (slot(id) == nullptr) {
+        const std::lock_guard lock(wishes_mutex_);
+        wishes_.push_back({id, urgency, need});
+    }
+    // It may be there and have to wait for what it depends on, and that again.
     for_each_dependence(id, [&](const TileId& other) {
-        if (slot(other) == nullptr) wishes_.push_back({other, urgency * 1.001, need});
+        if (find(other) == nullptr) want(other, urgency * 1.001, need);
     });
 }
 
@@ -210,7 +213,7 @@ void TileStore::renew_wishes() {
     // What would have to make room for itself only to be dropped again is not read.
     std::size_t in_use = 0;
     for (const Resident* tile : residents_) {
-        if (tile->used_in_frame >= frame_) in_use += tile->tile.bytes();
+        if (tile->used_in_frame >= last_drawn_) in_use += tile->tile.bytes();
     }
     const std::size_t tile_bytes = sizeof(Resident) + std::size_t{40} * 1024;
     const std::size_t room =

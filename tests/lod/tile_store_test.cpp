@@ -246,6 +246,22 @@ TEST(TileStore, TooLittleMemoryForAViewIsSaid) {
     EXPECT_NE(whole.error().message.find("--memory"), std::string::npos) << whole.error().message;
 }
 
+// Was wrong: with a full memory, tiles of the last frame were let go between two of its looks, and a tile
+// that waited for one that waited itself was never complete, without a word: the picture stayed coarse.
+TEST(TileStore, WholeMeansWholeInAMemoryThatIsFull) {
+    const Terrain ample = open(ground(), {.threads = 0, .fade_s = 0});
+    Refiner expected(ample);
+    const Terrain tight = open(ground(), {.memory_bytes = 6 << 20, .threads = 2, .fade_s = 0});
+    Refiner refiner(tight);
+    for (int k = 0; k < 12; ++k) {
+        const View view(camera_over(ample, 80 + 70 * k, 850 - 60 * k, k % 2 == 0 ? 60 : 400));
+        const auto mesh = refiner.refine_whole(view, {.tau_px = 1, .morph = false});
+        ASSERT_TRUE(mesh) << mesh.error().message;
+        EXPECT_EQ((*mesh)->triangles(),
+                  (**expected.refine_whole(view, {.tau_px = 1, .morph = false})).triangles());
+    }
+}
+
 // One core or all: the same triangles.
 TEST(TileStore, AllCoresMakeTheMeshOfOne) {
     const Terrain terrain = open(ground(), {.threads = 0, .fade_s = 0});
