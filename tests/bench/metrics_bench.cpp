@@ -25,7 +25,7 @@
 #include "lod/mesh_heights.hpp"
 #include "lod/scene/scene.hpp"
 #include "lod/soar/metrics.hpp"
-#include "tests/bench/textbook.hpp"
+#include "lod/textbook/textbook.hpp"
 
 namespace {
 
@@ -168,7 +168,7 @@ int main(int argc, char** argv) {
     Row bounded[] = {{"bounded, 1 thread", &scan}, {"bounded, 2 threads", &scan}};
     for (int run = 0; run < runs; ++run) {
         midpoint.seconds.push_back(
-            seconds_of([&] { const bench::Textbook textbook(padded, spacing.column_m, spacing.row_m); }));
+            seconds_of([&] { const lod::Textbook textbook(padded, spacing.column_m, spacing.row_m); }));
         scan.seconds.push_back(seconds_of([&] { plain_bounded(padded, frame.levels()); }));
         for (int threads = 1; threads <= 2; ++threads) {
             const auto time = [&](lod::ObjectErrors errors) {

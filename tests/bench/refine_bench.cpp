@@ -11,8 +11,8 @@
 
 #include "lod/mesh_heights.hpp"
 #include "lod/soar/refiner.hpp"
+#include "lod/textbook/textbook.hpp"
 #include "tests/bench/flight.hpp"
-#include "tests/bench/textbook.hpp"
 
 namespace {
 
@@ -50,7 +50,7 @@ void shipped(benchmark::State& state, const lod::Terrain& terrain, const std::ve
 }
 
 /// The same cameras in the textbook's flat world: x east, y south, z up.
-void textbook(benchmark::State& state, bench::Textbook& mesh, const lod::Scene& scene,
+void textbook(benchmark::State& state, lod::Textbook& mesh, const lod::Scene& scene,
               const std::vector<lod::Camera>& cameras, double tau) {
     const geo::GridFrame& frame = scene.info().frame;
     const auto spacing = frame.spacing({0.5 * frame.columns, 0.5 * frame.rows});
@@ -104,7 +104,7 @@ int main(int argc, char** argv) {
     }
     const geo::GridFrame& frame = scene->info().frame;
     const auto spacing = frame.spacing({0.5 * frame.columns, 0.5 * frame.rows});
-    bench::Textbook yardstick(lod::mesh_heights(frame, *heights), spacing.column_m, spacing.row_m);
+    lod::Textbook yardstick(lod::mesh_heights(frame, *heights), spacing.column_m, spacing.row_m);
     const std::vector<lod::Camera> cameras = bench::flight(*scene, 100);
 
     for (const double tau : {0.25, 1.0}) {

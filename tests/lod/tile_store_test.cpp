@@ -124,7 +124,9 @@ TEST(TileStore, IsClosedUnderParentsWhateverIsThere) {
             const auto figures = tiles.figures();
             EXPECT_LE(figures.resident_bytes, std::size_t{3} << 20);
             most = std::max(most, figures.resident_tiles);
-            if (step % 10 == 9) EXPECT_EQ(count_breaches(tiles), 0) << step;
+            if (step % 10 == 9) {
+                EXPECT_EQ(count_breaches(tiles), 0) << step;
+            }
         }
         EXPECT_GT(most, 30u);
     }

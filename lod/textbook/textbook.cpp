@@ -1,4 +1,4 @@
-#include "tests/bench/textbook.hpp"
+#include "lod/textbook/textbook.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -6,11 +6,9 @@
 
 #include <glm/geometric.hpp>
 
-namespace relevo::bench {
+namespace relevo::lod {
 
-using lod::GridPoint;
-
-Textbook::Textbook(const lod::Raster<float>& heights, double spacing_x_m, double spacing_y_m)
+Textbook::Textbook(const Raster<float>& heights, double spacing_x_m, double spacing_y_m)
     : levels_(std::countr_zero(static_cast<unsigned>(heights.columns() - 1))),
       side_(heights.columns()),
       spacing_x_(spacing_x_m),
@@ -28,13 +26,13 @@ glm::dvec3 Textbook::position(int i) const {
 void Textbook::build_errors() {
     for (int level = 2 * levels_ - 1; level >= 0; --level) {
         for (int row = 0; row < side_; ++row) {
-            lod::for_each_vertex_in_row(levels_, level, row, [&](const GridPoint& v) {
-                const lod::Diamond d = lod::diamond(v, level, levels_);
+            for_each_vertex_in_row(levels_, level, row, [&](const GridPoint& v) {
+                const Diamond d = diamond(v, level, levels_);
                 Post& post = posts_[static_cast<std::size_t>(index(v))];
                 const double middle = 0.5 * (position(index(d.left)).z + position(index(d.right)).z);
                 double error = std::abs(static_cast<double>(post.z) - middle);
                 double radius = 0;
-                for (const GridPoint& c : lod::children(v, level, levels_)) {
+                for (const GridPoint& c : children(v, level, levels_)) {
                     const Post& child = posts_[static_cast<std::size_t>(index(c))];
                     error = std::max(error, static_cast<double>(child.error));
                     radius = std::max(radius, glm::distance(position(index(v)), position(index(c))) +
@@ -93,31 +91,34 @@ bool Textbook::is_visible(int i, unsigned& inside) const {
 }
 
 /// The children of j in the triangle whose apex is i and whose long side j splits: the middles of its short
-/// sides.
-std::array<int, 2> Textbook::next(int i, int j) const {
+/// sides, in the order in which the strip goes along the long side. It has the apex on its left and on its
+/// right in turn, level by level.
+std::array<int, 2> Textbook::next(int i, int j, int level) const {
     const int dx = i % side_ - j % side_;
     const int dy = i / side_ - j / side_;
     const int column = j % side_;
     const int row = j / side_;
-    return {index({column + (dx + dy) / 2, row + (dy - dx) / 2}),
-            index({column + (dx - dy) / 2, row + (dx + dy) / 2})};
+    const int left = index({column + (dx + dy) / 2, row + (dy - dx) / 2});
+    const int right = index({column + (dx - dy) / 2, row + (dx + dy) / 2});
+    if (level % 2 == 0) return {left, right};
+    return {right, left};
 }
 
 void Textbook::refine_part(int i, int j, int level) {
     if (level == 0 || !is_active(i)) return;
-    const auto [left, right] = next(i, j);
-    refine_part(j, left, level - 1);
+    const auto [first, second] = next(i, j, level);
+    refine_part(j, first, level - 1);
     append(i, level % 2);
-    refine_part(j, right, level - 1);
+    refine_part(j, second, level - 1);
 }
 
 void Textbook::refine_visible_part(int i, int j, int level, unsigned inside) {
     if (inside == 0xf) return refine_part(i, j, level);
     if (level == 0 || !is_active(i) || !is_visible(i, inside)) return;
-    const auto [left, right] = next(i, j);
-    refine_visible_part(j, left, level - 1, inside);
+    const auto [first, second] = next(i, j, level);
+    refine_visible_part(j, first, level - 1, inside);
     append(i, level % 2);
-    refine_visible_part(j, right, level - 1, inside);
+    refine_visible_part(j, second, level - 1, inside);
 }
 
 void Textbook::append(int v, int parity) {
@@ -131,4 +132,4 @@ void Textbook::append(int v, int parity) {
     strip_.push_back(v);
 }
 
-}  // namespace relevo::bench
+}  // namespace relevo::lod
