@@ -26,6 +26,7 @@ void add_ingest(CLI::App& program, Action& action);
 void add_info(CLI::App& program, Action& action);
 void add_view(CLI::App& program, Action& action);
 void add_render(CLI::App& program, Action& action);
+void add_bench(CLI::App& program, Action& action);
 void add_measure(CLI::App& program, Action& action);
 void add_check(CLI::App& program, Action& action);
 

@@ -41,6 +41,7 @@ int run(int argc, char** argv) {
 #ifdef RELEVO_VIEWER
     app::add_view(program, action);
     app::add_render(program, action);
+    app::add_bench(program, action);
 #endif
     app::add_measure(program, action);
     app::add_check(program, action);

@@ -1,16 +1,15 @@
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "app/command.hpp"
 #include "app/view_flags.hpp"
+#include "viewer/bench/machine.hpp"
 #include "viewer/numbers.hpp"
 #include "viewer/offscreen.hpp"
 
@@ -42,15 +41,6 @@ Result<std::optional<std::array<float, 3>>> read_background(const std::optional<
     return std::optional(colour);
 }
 
-/// Memory of this process that is in RAM now, MiB.
-double resident_mib() {
-    std::ifstream statm("/proc/self/statm");
-    double total = 0;
-    double resident = 0;
-    statm >> total >> resident;
-    return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024 * 1024);
-}
-
 nlohmann::json to_json(const viewer::ViewState& view, const viewer::PictureRequest& request,
                        const viewer::PictureFigures& figures, const std::string& output) {
     nlohmann::json json{{"picture", output},
@@ -72,7 +62,7 @@ nlohmann::json to_json(const viewer::ViewState& view, const viewer::PictureReque
                         {"error_posts", nullptr},
                         {"error_pixels", nullptr},
                         {"uncovered_posts", nullptr},
-                        {"resident_mib", resident_mib()},
+                        {"resident_mib", viewer::resident_mib()},
                         {"ocean", nullptr},
                         {"gl_renderer", figures.gl},
                         {"at", to_string(view)}};

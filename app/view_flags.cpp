@@ -50,19 +50,11 @@ std::optional<int> whole_number(std::string_view text) {
 
 }  // namespace
 
-void add_view_flags(CLI::App& command, ViewFlags& flags) {
+void add_picture_flags(CLI::App& command, ViewFlags& flags) {
     const auto add = [&command](const char* name, auto& place, const char* value, const char* what) {
         command.add_option(name, place, what)->type_name(value);
     };
-    add("--at", flags.at, "VIEW", "A whole view in one string, as the window copies it (V)");
-    add("--eye", flags.eye, "LAT,LON,H", "Where the eye is; H in metres above the scene's vertical datum");
-    add("--heading", flags.heading, "DEG", "Clockwise from north");
-    add("--pitch", flags.pitch, "DEG", "0 at the horizon, -90 straight down");
-    add("--roll", flags.roll, "DEG", "Of the head, to the right");
-    add("--fov", flags.fov, "DEG", "Vertical view angle, above 0 and below 180 [60]");
     add("--size", flags.size, "WxH", "Of the picture, pixels [1280x720]");
-    add("--lod", flags.method, "soar|full", "How the mesh is made [soar]");
-    add("--metric", flags.metric, "bounded|incremental", "The error that drives it [bounded]");
     add("--tau", flags.tau, "PX", "Largest error on the screen, pixels [1]");
     add("--morph", flags.morph, "on|off", "Vertices move in continuously");
     add("--exaggeration", flags.exaggeration, "X", "Of heights, in the picture only [1]");
@@ -73,6 +65,21 @@ void add_view_flags(CLI::App& command, ViewFlags& flags) {
         ->transform(CLI::AsSizeValue(false))
         ->type_name("BYTES");
     command.add_flag("--wireframe", flags.wireframe, "Draw the mesh's edges, coloured by level");
+}
+
+void add_view_flags(CLI::App& command, ViewFlags& flags) {
+    const auto add = [&command](const char* name, auto& place, const char* value, const char* what) {
+        command.add_option(name, place, what)->type_name(value);
+    };
+    add("--at", flags.at, "VIEW", "A whole view in one string, as the window copies it (V)");
+    add("--eye", flags.eye, "LAT,LON,H", "Where the eye is; H in metres above the scene's vertical datum");
+    add("--heading", flags.heading, "DEG", "Clockwise from north");
+    add("--pitch", flags.pitch, "DEG", "0 at the horizon, -90 straight down");
+    add("--roll", flags.roll, "DEG", "Of the head, to the right");
+    add("--fov", flags.fov, "DEG", "Vertical view angle, above 0 and below 180 [60]");
+    add("--lod", flags.method, "soar|full", "How the mesh is made [soar]");
+    add("--metric", flags.metric, "bounded|incremental", "The error that drives it [bounded]");
+    add_picture_flags(command, flags);
 }
 
 void add_max_triangles_flag(CLI::App& command, BudgetFlags& flags) {

@@ -28,6 +28,8 @@ struct ViewFlags {
     std::optional<int> samples;
     std::uint64_t memory = std::uint64_t{1} << 30;
 };
+/// Those of them that say how it is drawn, and not from where or by which method.
+void add_picture_flags(CLI::App& command, ViewFlags& flags);
 void add_view_flags(CLI::App& command, ViewFlags& flags);
 
 /// What --memory leaves for tiles. The environment variable RELEVO_READ_DELAY_MS delays each read of them, to

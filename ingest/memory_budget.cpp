@@ -12,8 +12,8 @@ constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
 
 // Measured (docs/ingest.md): the program with its libraries, the geoid and PROJ's database.
 constexpr std::uint64_t kProgram = 80 * kMiB;
-// A metric tile's positions (4 doubles a post), codes and normals, blocks of the pyramid's levels and what compressing
-// them takes.
+// A metric tile's positions (4 doubles a post), codes and normals, blocks of the pyramid's levels and what
+// compressing them takes.
 constexpr std::uint64_t kTile = 32 * kMiB;
 // A post of the lattice: its height, the mean of its cell, three codes, its normal and class.
 constexpr std::uint64_t kLatticePost = 4 + 4 + 6 + 5;

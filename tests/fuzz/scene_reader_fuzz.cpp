@@ -1,6 +1,6 @@
-// Bytes as the files of a scene: the first says which, the second the sides of a block (where it has not one size), the
-// rest is the file.
-// With RELEVO_FUZZ_GOOD in the environment all must be accepted: a seed that is refused leads nowhere.
+// Bytes as the files of a scene: the first says which, the second the sides of a block (where it has not one
+// size), the rest is the file. With RELEVO_FUZZ_GOOD in the environment all must be accepted: a seed that is
+// refused leads nowhere.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

@@ -34,7 +34,9 @@ class TextbookOnAScene : public testing::Test {
         auto made = TextbookMesher::create(*scene, 1);
         ASSERT_TRUE(made) << made.error().message;
         mesher_.emplace(std::move(*made));
-        terrain_.emplace(*Terrain::load(*scene, ErrorMetric::bounded));
+        auto terrain = Terrain::open(*scene, ErrorMetric::bounded, {.threads = 0, .fade_s = 0});
+        ASSERT_TRUE(terrain) << terrain.error().message;
+        terrain_.emplace(std::move(*terrain));
     }
 
     Camera camera(double column, double row, double h, double heading, double pitch) const {
