@@ -6,6 +6,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "lod/soar/machine_clones.hpp"
+
 namespace relevo::lod {
 
 namespace {
@@ -44,9 +46,9 @@ struct CoarseScan::Plane {
 namespace {
 
 /// Distances of posts from start, start + step, ...
-[[gnu::target_clones("avx2", "default")]] void distances(const double* x, const double* y, const double* z,
-                                                         int count, const glm::dvec3& start,
-                                                         const glm::dvec3& step, double* distance) {
+[[RELEVO_CLONES("avx2", "default")]] void distances(const double* x, const double* y, const double* z,
+                                                    int count, const glm::dvec3& start,
+                                                    const glm::dvec3& step, double* distance) {
     const double sx = start.x, sy = start.y, sz = start.z;
     const double ax = step.x, ay = step.y, az = step.z;
 #pragma GCC ivdep

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "lod/soar/machine_clones.hpp"
+
 namespace relevo::lod {
 
 namespace {
@@ -25,10 +27,10 @@ void deal(const double* by_column, int lanes, double* by_class) {
     }
 }
 
-[[gnu::target_clones("avx2", "default")]] void place_geographic(const geo::PostPositions::Row& row,
-                                                                const double* cos_lon, const double* sin_lon,
-                                                                const double* height, int count, double* x,
-                                                                double* y, double* z) {
+[[RELEVO_CLONES("avx2", "default")]] void place_geographic(const geo::PostPositions::Row& row,
+                                                           const double* cos_lon, const double* sin_lon,
+                                                           const double* height, int count, double* x,
+                                                           double* y, double* z) {
 #pragma GCC ivdep
     for (int i = 0; i < count; ++i) {
         const double from_axis = row.from_axis + height[i] * row.cos_lat;

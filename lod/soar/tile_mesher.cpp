@@ -7,14 +7,8 @@
 #include <glm/geometric.hpp>
 
 #include "lod/scene/metric_code.hpp"
+#include "lod/soar/machine_clones.hpp"
 
-// The loops below are compiled twice, and the machine takes those that suit it. Thread sanitizers start after
-// that choice is made and cannot bear it.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_THREAD__)
-#define RELEVO_FOR_EACH_MACHINE [[gnu::target_clones("arch=x86-64-v3", "default")]]
-#else
-#define RELEVO_FOR_EACH_MACHINE
-#endif
 // All functions that pass vectors are inlined: there is no ABI that they could change.
 #pragma GCC diagnostic ignored "-Wpsabi"
 #define RELEVO_INLINE [[gnu::always_inline]] inline
@@ -271,9 +265,9 @@ struct Ends {
 
 }  // namespace
 
-RELEVO_FOR_EACH_MACHINE
-TileMesher::Quarters TileMesher::place_vertices(const FrameTest& test, const TileStore::Resident& resident,
-                                                const TileGround& ground, unsigned inside, MeshOutput& out) {
+[[RELEVO_CLONES("arch=x86-64-v3", "default")]] TileMesher::Quarters TileMesher::place_vertices(
+    const FrameTest& test, const TileStore::Resident& resident, const TileGround& ground, unsigned inside,
+    MeshOutput& out) {
     const Tile& tile = resident.tile;
     id_ = tile.id();
     squares_ = tile.squares();

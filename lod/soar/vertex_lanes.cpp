@@ -7,11 +7,12 @@
 
 #include "lod/scene/metric_code.hpp"
 #include "lod/soar/fine_metrics.hpp"
+#include "lod/soar/machine_clones.hpp"
 
 // The loops below are left to the compiler to vectorise, but for the longest one. CMake compiles this file
 // without errno and floating point traps, which change no result. Nothing here fuses a product and a sum, so
 // that results are the same bits everywhere.
-#define RELEVO_LANES gnu::target_clones("avx2", "default")
+#define RELEVO_LANES RELEVO_CLONES("avx2", "default")
 
 namespace relevo::lod {
 
