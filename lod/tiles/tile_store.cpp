@@ -80,6 +80,8 @@ void TileStore::for_each_dependence(const TileId& id, Visit visit) const {
 
 void TileStore::start_frame() {
     if (used_.exchange(false)) last_drawn_ = frame_++;
+    // Before anything is taken in: what the last frame missed it missed, even if it has come since.
+    std::vector<Wish> wishes = take_wishes();
     std::vector<Arrival> arrivals;
     {
         const std::lock_guard lock(mutex_);
@@ -88,7 +90,7 @@ void TileStore::start_frame() {
     const bool changed = !arrivals.empty();
     take_in(arrivals);
     if (changed || fading_) update_presence();
-    renew_wishes();
+    pass_on(std::move(wishes));
 }
 
 void TileStore::take_in(std::vector<Arrival>& arrivals) {
@@ -190,7 +192,8 @@ void TileStore::want(const TileId& id, double urgency, Need need) const {
     });
 }
 
-void TileStore::renew_wishes() {
+/// What the last frame missed, the most pressing last.
+std::vector<TileStore::Wish> TileStore::take_wishes() {
     std::vector<Wish> wishes;
     {
         const std::lock_guard lock(wishes_mutex_);
@@ -209,7 +212,14 @@ void TileStore::renew_wishes() {
     std::sort(wishes.begin(), wishes.end(), presses_less);
     pending_ = static_cast<std::size_t>(
         std::count_if(wishes.begin(), wishes.end(), [](const Wish& wish) { return wish.need == Need::now; }));
+    return wishes;
+}
 
+/// Tells the readers what to read.
+void TileStore::pass_on(std::vector<Wish> wishes) {
+    std::erase_if(wishes, [&](const Wish& wish) { return slot(wish.id) || failed_.contains(wish.id); });
+    const auto needed =
+        std::count_if(wishes.begin(), wishes.end(), [](const Wish& wish) { return wish.need == Need::now; });
     // What would have to make room for itself only to be dropped again is not read.
     std::size_t in_use = 0;
     for (const Resident* tile : residents_) {
@@ -218,7 +228,7 @@ void TileStore::renew_wishes() {
     const std::size_t tile_bytes = sizeof(Resident) + std::size_t{40} * 1024;
     const std::size_t room =
         options_.memory_bytes > in_use ? (options_.memory_bytes - in_use) / tile_bytes : 0;
-    starved_ = pending_ > room;
+    starved_ = static_cast<std::size_t>(needed) > room;
     if (wishes.size() > room) wishes.erase(wishes.begin(), wishes.end() - static_cast<std::ptrdiff_t>(room));
 
     const std::lock_guard lock(mutex_);

@@ -148,7 +148,8 @@ class TileStore {
     void take_in(std::vector<Arrival>& arrivals);
     void update_presence();
     void make_room(std::size_t bytes);
-    void renew_wishes();
+    std::vector<Wish> take_wishes();
+    void pass_on(std::vector<Wish> wishes);
 
     const Pyramid& pyramid_;
     const geo::PostPositions& positions_;

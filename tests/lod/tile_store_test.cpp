@@ -264,6 +264,22 @@ TEST(TileStore, WholeMeansWholeInAMemoryThatIsFull) {
     }
 }
 
+// Was wrong: a tile that came between a frame and the look at what it had missed counted as not missed.
+TEST(TileStore, WhatAFrameMissedItMissed) {
+    const Terrain terrain = open(ground(), {.threads = 0, .fade_s = 0});
+    TileStore& tiles = terrain.tiles();
+    const TileId id{1, 2, 2};
+    tiles.want(id, 1);
+    tiles.start_frame();
+    ASSERT_TRUE(tiles.wait());  // it has been read
+    tiles.want(id, 1);          // and a frame is drawn without it
+    tiles.start_frame();
+    EXPECT_NE(tiles.find(id), nullptr);
+    EXPECT_GT(tiles.figures().pending_tiles, 0u);
+    tiles.start_frame();
+    EXPECT_EQ(tiles.figures().pending_tiles, 0u);
+}
+
 // One core or all: the same triangles.
 TEST(TileStore, AllCoresMakeTheMeshOfOne) {
     const Terrain terrain = open(ground(), {.threads = 0, .fade_s = 0});
