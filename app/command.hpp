@@ -29,6 +29,7 @@ void add_render(CLI::App& program, Action& action);
 void add_bench(CLI::App& program, Action& action);
 void add_measure(CLI::App& program, Action& action);
 void add_check(CLI::App& program, Action& action);
+void add_export(CLI::App& program, Action& action);
 
 /// A progress bar on stderr, for terminals only: call it with the part done, 0 to 1.
 std::function<void(double)> progress_bar(const Common& common, std::string what);

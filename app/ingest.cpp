@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <signal.h>
 
 #include "app/command.hpp"
 #include "app/source_flags.hpp"
+#include "app/stop_on_signal.hpp"
 #include "ingest/import.hpp"
 #include "ingest/reference/vertical_datum.hpp"
 #include "ingest/source/inputs.hpp"
@@ -47,30 +47,6 @@ struct Settings {
     std::vector<double> resolution;
     std::vector<double> crop;
     std::uint64_t max_posts = ingest::ImportOptions::kMostPosts;
-};
-
-volatile sig_atomic_t stop_asked = 0;
-
-/// Ctrl-C and SIGTERM end the import at its next step, so that it can take away what it has written so far.
-class StopOnSignal {
-  public:
-    StopOnSignal() {
-        struct sigaction action {};
-        action.sa_handler = [](int) { stop_asked = 1; };
-        sigemptyset(&action.sa_mask);
-        sigaction(SIGINT, &action, &old_interrupt_);
-        sigaction(SIGTERM, &action, &old_terminate_);
-    }
-    ~StopOnSignal() {
-        sigaction(SIGINT, &old_interrupt_, nullptr);
-        sigaction(SIGTERM, &old_terminate_, nullptr);
-    }
-    StopOnSignal(const StopOnSignal&) = delete;
-    StopOnSignal& operator=(const StopOnSignal&) = delete;
-
-  private:
-    struct sigaction old_interrupt_ {};
-    struct sigaction old_terminate_ {};
 };
 
 std::optional<ingest::Bounds> bounds_of(const std::vector<double>& numbers) {
@@ -221,7 +197,7 @@ Result<void> run_import(const Settings& s) {
     const ingest::ImportPlace place{std::filesystem::absolute(s.scene), s.overwrite, s.resume};
     const auto imported = ingest::import_scene(*options, place, [&](double done) {
         bar(done);
-        return stop_asked == 0;
+        return !signals.stop_asked();
     });
     if (!imported) return imported.error();
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

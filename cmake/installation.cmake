@@ -1,13 +1,13 @@
 # cmake --install, and find_package(relevo) for programs that use the libraries.
 include(CMakePackageConfigHelpers)
 
-set(targets relevo_geo relevo_scene relevo_lod relevo_ingest)
+set(targets relevo_geo relevo_scene relevo_lod relevo_ingest relevo_output)
 if(RELEVO_VIEWER)
   list(APPEND targets relevo_viewer)
 endif()
 install(TARGETS ${targets} EXPORT relevo-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS relevo RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-foreach(folder geo lod ingest viewer)
+foreach(folder geo lod ingest output viewer)
   if(folder STREQUAL viewer AND NOT RELEVO_VIEWER)
     continue()
   endif()

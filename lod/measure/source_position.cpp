@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include <proj.h>
 #include <proj_experimental.h>
@@ -57,17 +58,39 @@ PjPtr operation_to(PJ_CONTEXT* context, const PJ* crs, const std::string& name) 
 
 }  // namespace
 
-std::optional<SourcePosition> source_position(const SourceInfo& source, geo::LatLon place) {
-    const std::unique_ptr<PJ_CONTEXT, Destroy> context{proj_context_create()};
-    proj_log_level(context.get(), PJ_LOG_NONE);
-    const PjPtr crs = horizontal_crs(context.get(), source.crs_wkt);
+struct SourceProjection::Proj {
+    std::unique_ptr<PJ_CONTEXT, Destroy> context;
+    PjPtr operation;
+};
+
+SourceProjection::SourceProjection(std::unique_ptr<Proj> proj) : proj_(std::move(proj)) {}
+SourceProjection::SourceProjection(SourceProjection&&) noexcept = default;
+SourceProjection& SourceProjection::operator=(SourceProjection&&) noexcept = default;
+SourceProjection::~SourceProjection() = default;
+
+std::optional<SourceProjection> SourceProjection::create(const SourceInfo& source) {
+    auto proj = std::make_unique<Proj>();
+    proj->context.reset(proj_context_create());
+    PJ_CONTEXT* const context = proj->context.get();
+    proj_log_level(context, PJ_LOG_NONE);
+    const PjPtr crs = horizontal_crs(context, source.crs_wkt);
     if (!crs) return {};
-    const PjPtr operation = operation_to(context.get(), crs.get(), source.operation);
-    if (!operation) return {};
+    proj->operation = operation_to(context, crs.get(), source.operation);
+    if (!proj->operation) return {};
+    return SourceProjection(std::move(proj));
+}
+
+std::optional<SourcePosition> SourceProjection::position(geo::LatLon place) const {
     const PJ_COORD there =
-        proj_trans(operation.get(), PJ_INV, proj_coord(place.lon.value, place.lat.value, 0, HUGE_VAL));
+        proj_trans(proj_->operation.get(), PJ_INV, proj_coord(place.lon.value, place.lat.value, 0, HUGE_VAL));
     if (!std::isfinite(there.xy.x) || !std::isfinite(there.xy.y)) return {};
     return SourcePosition{there.xy.x, there.xy.y};
+}
+
+std::optional<SourcePosition> source_position(const SourceInfo& source, geo::LatLon place) {
+    const auto projection = SourceProjection::create(source);
+    if (!projection) return {};
+    return projection->position(place);
 }
 
 }  // namespace relevo::lod

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "geo/position.hpp"
@@ -14,8 +15,27 @@ struct SourcePosition {
     double y = 0;
 };
 
-/// By the coordinate operation that the source came in with; nothing where PROJ has none or the place is
-/// outside it.
+/// From WGS 84 to the CRS of a source, by the coordinate operation that it came in with. For one thread at a
+/// time.
+class SourceProjection {
+  public:
+    /// Nothing where PROJ has no such operation here.
+    static std::optional<SourceProjection> create(const SourceInfo& source);
+    SourceProjection(SourceProjection&&) noexcept;
+    SourceProjection& operator=(SourceProjection&&) noexcept;
+    ~SourceProjection();
+
+    /// Nothing where the place is outside the CRS.
+    std::optional<SourcePosition> position(geo::LatLon place) const;
+
+  private:
+    struct Proj;
+    explicit SourceProjection(std::unique_ptr<Proj> proj);
+
+    std::unique_ptr<Proj> proj_;
+};
+
+/// The same for one place; nothing where PROJ has no operation or the place is outside it.
 std::optional<SourcePosition> source_position(const SourceInfo& source, geo::LatLon place);
 
 }  // namespace relevo::lod
