@@ -1,7 +1,6 @@
 #include "lod/static_mesh/static_mesh.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 #include <tbb/blocked_range.h>
