@@ -47,6 +47,7 @@ Result<void> write_cog(const lod::Scene& scene, const lod::BlockGrid::Box& box, 
         return Error{ErrorKind::internal, "this GDAL has no driver for cloud-optimised GeoTIFF"};
     CPLStringList options;
     options.SetNameValue("COMPRESS", request.compression.c_str());
+    if (request.compression == "ZSTD") options.SetNameValue("LEVEL", "6");  // as in scenes (block_file.cpp)
     options.SetNameValue("PREDICTOR", "YES");
     options.SetNameValue("BLOCKSIZE", "512");
     options.SetNameValue("OVERVIEW_RESAMPLING", "NEAREST");

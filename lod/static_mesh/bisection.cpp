@@ -69,11 +69,19 @@ BisectionRoots::Sides BisectionRoots::sides(const GridPoint& split) const {
 
 namespace {
 
-/// A triangle whose legs are at most this long, in posts, is refined by one thread to the end.
-constexpr int kSmall = 64;
+/// Triangles are small that lie in a square of this many cells a side, the grid of which is aligned with the
+/// bisection. One thread refines a square, and leaves what that splits in others for later: to follow it
+/// there would lead over the whole grid, and pile up triangles that wait for their turn.
+constexpr int kSquare = 128;
 
 bool is_small(const BisectionTriangle& t) {
-    return std::max(std::abs(t.left.column - t.right.column), std::abs(t.left.row - t.right.row)) <= kSmall;
+    return std::max(std::abs(t.left.column - t.right.column), std::abs(t.left.row - t.right.row)) <= kSquare;
+}
+
+/// The square that a small triangle lies in.
+GridPoint square_of(const BisectionTriangle& t) {
+    return {std::min({t.left.column, t.right.column, t.apex.column}) / kSquare,
+            std::min({t.left.row, t.right.row, t.apex.row}) / kSquare};
 }
 
 template <class Surface>
@@ -90,17 +98,22 @@ class Chooser {
 
     PostSet run() && {
         std::vector<BisectionTriangle> open = roots_.triangles();
+        std::vector<BisectionTriangle> now;
+        // The latest first, and not all at once: what waits stays short.
+        constexpr std::size_t kAtOnce = 8192;
         while (!open.empty()) {
-            tbb::parallel_for(tbb::blocked_range<std::size_t>(0, open.size(), 1),
+            const std::size_t rest = open.size() - std::min(open.size(), kAtOnce);
+            now.assign(open.begin() + static_cast<std::ptrdiff_t>(rest), open.end());
+            open.resize(rest);
+            tbb::parallel_for(tbb::blocked_range<std::size_t>(0, now.size(), 1),
                               [&](const tbb::blocked_range<std::size_t>& some) {
                                   Stacks& stacks = stacks_.local();
                                   for (std::size_t i = some.begin(); i < some.end(); ++i)
-                                      refine(open[i], stacks);
+                                      refine(now[i], stacks);
                               });
-            open.clear();
             for (Stacks& stacks : stacks_) {
-                open.insert(open.end(), stacks.large.begin(), stacks.large.end());
-                stacks.large.clear();
+                open.insert(open.end(), stacks.later.begin(), stacks.later.end());
+                stacks.later.clear();
             }
         }
         return std::move(splits_);
@@ -108,16 +121,18 @@ class Chooser {
 
   private:
     struct Stacks {
-        std::vector<BisectionTriangle> large;  // for the next round, any thread
-        std::vector<BisectionTriangle> small;
+        std::vector<BisectionTriangle> later;  // for another round, any thread
+        std::vector<BisectionTriangle> here;   // of one square
+        GridPoint square;
         std::vector<GridPoint> splits;
     };
 
     void refine(const BisectionTriangle& first, Stacks& stacks) {
+        stacks.square = is_small(first) ? square_of(first) : GridPoint{-1, -1};
         examine(first, stacks);
-        while (!stacks.small.empty()) {
-            const BisectionTriangle t = stacks.small.back();
-            stacks.small.pop_back();
+        while (!stacks.here.empty()) {
+            const BisectionTriangle t = stacks.here.back();
+            stacks.here.pop_back();
             examine(t, stacks);
         }
     }
@@ -147,7 +162,9 @@ class Chooser {
                 // The triangle on that side is there only if the one that its apex splits is.
                 if (!splits_.contains(side.apex)) stacks.splits.push_back(side.apex);
                 for (const BisectionTriangle& half : {side.left_half(), side.right_half()}) {
-                    if (!half.is_finest()) (is_small(half) ? stacks.small : stacks.large).push_back(half);
+                    if (half.is_finest()) continue;
+                    const bool here = is_small(half) && square_of(half) == stacks.square;
+                    (here ? stacks.here : stacks.later).push_back(half);
                 }
             }
         }
