@@ -106,8 +106,10 @@ constexpr Compression compression() {
     return {"1", "3"};
 }
 
+constexpr const char* kLittleEffort = "3";
+
 template <class T>
-CPLStringList creation_options(BlockShape shape, double max_error) {
+CPLStringList creation_options(BlockShape shape, double max_error, Effort effort) {
     CPLStringList options;
     options.SetNameValue("INTERLEAVE", "BAND");
     options.SetNameValue("BLOCKYSIZE", fmt::format("{}", shape.rows).c_str());
@@ -118,7 +120,8 @@ CPLStringList creation_options(BlockShape shape, double max_error) {
         return options;
     }
     options.SetNameValue("COMPRESS", "ZSTD");
-    options.SetNameValue("ZSTD_LEVEL", compression<T>().zstd_level);
+    options.SetNameValue("ZSTD_LEVEL",
+                         effort == Effort::little ? kLittleEffort : compression<T>().zstd_level);
     options.SetNameValue("PREDICTOR", compression<T>().predictor);
     return options;
 }
@@ -160,7 +163,8 @@ GDALDatasetUniquePtr open_block(const MemoryFile& file) {
 
 template <class T>
 Result<std::vector<std::byte>> encode_block(std::span<const T> samples, BlockShape shape,
-                                            const std::optional<GeoReference>& where, double max_error) {
+                                            const std::optional<GeoReference>& where, double max_error,
+                                            Effort effort) {
     assert(samples.size() == shape.samples());
     const QuietGdal quiet;
     GDALDriver* driver = geotiff_driver();
@@ -168,7 +172,8 @@ Result<std::vector<std::byte>> encode_block(std::span<const T> samples, BlockSha
 
     const MemoryFile memory;
     GDALDatasetUniquePtr file(driver->Create(memory.name(), shape.columns, shape.rows, shape.bands,
-                                             gdal_type<T>(), creation_options<T>(shape, max_error).List()));
+                                             gdal_type<T>(),
+                                             creation_options<T>(shape, max_error, effort).List()));
     if (!file || !write_meaning<T>(*file, where)) return not_written(QuietGdal::message());
     auto* data = const_cast<T*>(samples.data());
     if (file->RasterIO(GF_Write, 0, 0, shape.columns, shape.rows, data, shape.columns, shape.rows,
@@ -213,13 +218,13 @@ Result<BlockShape> block_shape(std::span<const std::byte> bytes, const std::stri
 }
 
 template Result<std::vector<std::byte>> encode_block(std::span<const std::int16_t>, BlockShape,
-                                                     const std::optional<GeoReference>&, double);
+                                                     const std::optional<GeoReference>&, double, Effort);
 template Result<std::vector<std::byte>> encode_block(std::span<const std::uint16_t>, BlockShape,
-                                                     const std::optional<GeoReference>&, double);
+                                                     const std::optional<GeoReference>&, double, Effort);
 template Result<std::vector<std::byte>> encode_block(std::span<const std::uint8_t>, BlockShape,
-                                                     const std::optional<GeoReference>&, double);
+                                                     const std::optional<GeoReference>&, double, Effort);
 template Result<std::vector<std::byte>> encode_block(std::span<const float>, BlockShape,
-                                                     const std::optional<GeoReference>&, double);
+                                                     const std::optional<GeoReference>&, double, Effort);
 template Result<std::vector<std::int16_t>> decode_block(std::span<const std::byte>, BlockShape,
                                                         const std::string&, std::span<const int>);
 template Result<std::vector<std::uint16_t>> decode_block(std::span<const std::byte>, BlockShape,

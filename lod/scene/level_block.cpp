@@ -42,7 +42,7 @@ Result<std::vector<std::byte>> encode_heights_as(const Raster<float>& heights) {
                          fmt::format("a height of {} m of a mesh does not fit the scene's type", H)};
         }
     }
-    return encode_block<T>(samples, {heights.columns(), heights.rows()}, std::nullopt);
+    return encode_block<T>(samples, {heights.columns(), heights.rows()}, std::nullopt, 0, Effort::little);
 }
 
 template <class T>

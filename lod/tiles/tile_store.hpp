@@ -164,8 +164,8 @@ class TileStore {
     std::vector<int> across_;
     std::size_t resident_bytes_ = 0;
     std::vector<Resident*> residents_;  // coarsest first; without those of the coarsest block, which stay
-    std::uint64_t frame_ = 1;       // that is drawn next
-    std::uint64_t last_drawn_ = 0;  // the last that drew with anything
+    std::uint64_t frame_ = 1;           // that is drawn next
+    std::uint64_t last_drawn_ = 0;      // the last that drew with anything
     mutable std::atomic<bool> used_{false};
     bool fading_ = false;
     bool starved_ = false;
