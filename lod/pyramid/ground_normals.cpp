@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lod/scene/post_mark.hpp"
+#include "lod/soar/machine_clones.hpp"
 
 namespace relevo::lod {
 
@@ -38,10 +39,9 @@ Normal normal_of(double along, double up) {
 }
 
 /// One row, where all of the posts around each are valid; elsewhere the surface is taken to be flat.
-[[gnu::target_clones("avx2", "default")]] void normals_inside(const float* north, const float* here,
-                                                              const float* south, int count,
-                                                              double per_column, double per_row,
-                                                              Normal* out) {
+[[RELEVO_CLONES("avx2", "default")]] void normals_inside(const float* north, const float* here,
+                                                         const float* south, int count, double per_column,
+                                                         double per_row, Normal* out) {
     for (int i = 0; i < count; ++i) {
         const float rise_along = here[i + 1] - here[i - 1];
         const float rise_up = north[i] - south[i];
