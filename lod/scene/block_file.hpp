@@ -32,7 +32,7 @@ struct BlockShape {
     }
 };
 
-/// How hard compressing without loss tries. Heights take 1 to 2 % more with little effort, and half the time.
+/// How hard compressing without loss tries. Heights take 1 to 2 % more with little effort.
 enum class Effort { usual, little };
 
 /// The bytes of a GeoTIFF that holds the samples: one strip a band, compressed, pixel-is-point. The same
