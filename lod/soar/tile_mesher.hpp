@@ -88,6 +88,22 @@ class TileMesher {
     void hand_down(const TileGrid& grid, int quarter, Corners& child) const;
 
   private:
+    /// Of a row of squares, for which of them the two corners that are their centre's parents are in the
+    /// mesh.
+    struct Parents {
+        std::uint64_t first;   // of falling squares the north-east corner, else the north-west one
+        std::uint64_t second;  // the south-west one, else the south-east one
+    };
+    Parents parents_of_centres(int row) const {
+        // The diagonal of a falling square, which its centre splits, runs from its north-west to its
+        // south-east corner: where column and row are both even or both odd.
+        constexpr std::uint64_t even = 0x5555555555555555;
+        const std::uint64_t falling = row % 2 == 0 ? even : ~even;
+        const std::uint64_t above = corners.here[static_cast<std::size_t>(row)];
+        const std::uint64_t below = corners.here[static_cast<std::size_t>(row) + 1];
+        return {((above >> 1) & falling) | (above & ~falling), (below & falling) | ((below >> 1) & ~falling)};
+    }
+
     TileId id_;
     int squares_ = 0;
     // Mesh vertices, with room for groups of four beyond the last.

@@ -81,7 +81,11 @@ class Tile {
     /// Squares of 2 x 2 cells a side: every one has a vertex at its centre and one on each side.
     int squares() const { return squares_; }
 
-    /// Of the squares' centres in a row of squares.
+    /// Groups in a row, and in a row of the middles of sides along a column.
+    int groups() const { return groups_; }
+    int groups_down() const { return groups_down_; }
+
+    /// Of the squares' centres in a row of squares; the next row's follow.
     const Lanes* centres(int row) const { return lanes_.data() + row * groups_; }
     /// Of the middles of sides along a row: `row` from 0 to squares().
     const Lanes* across(int row) const { return lanes_.data() + (squares_ + row) * groups_; }
