@@ -32,6 +32,13 @@ bool is_void(float H) {
     return std::isnan(H);
 }
 
+bool any_void(const Raster<float>& heights, int row) {
+    const float* H = heights.row(row);
+    int count = 0;  // without a way out of the loop it is done by many at once
+    for (int i = 0; i < heights.columns(); ++i) count += H[i] == H[i] ? 0 : 1;
+    return count > 0;
+}
+
 /// Bilinear in a raster of means at fine sample `column`, `row`, of which `size` a side make a mean.
 float between_means(const Raster<float>& means, int column, int row, int size) {
     struct Part {
@@ -136,6 +143,7 @@ Raster<float> MeshHeights::filled(const BlockGrid::Box& box, const Raster<float>
     if (heights.columns() > 0) paste(heights, {}, all);
     if (std::none_of(all.samples().begin(), all.samples().end(), is_void)) return all;
     for (int row = box.row % 2; row < box.rows; row += 2) {
+        if (!any_void(all, row)) continue;
         for (int column = box.column % 2; column < box.columns; column += 2) {
             float& H = all.at(column, row);
             if (is_void(H)) H = fill(box.column + column, box.row + row);
@@ -171,6 +179,7 @@ void fill_odd_posts(const GridPoint& first, int levels, Raster<float>& heights) 
         return inside ? heights.at(x, y) : kVoid;
     };
     for (int row = 0; row < heights.rows(); ++row) {
+        if (!any_void(heights, row)) continue;
         const int y = first.row + row;
         for (int column = 0; column < heights.columns(); ++column) {
             float& H = heights.at(column, row);

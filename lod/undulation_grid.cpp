@@ -10,6 +10,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
+#include "lod/machine_clones.hpp"
+
 namespace relevo::lod {
 namespace {
 
@@ -69,6 +71,17 @@ int coarsest_shift(const geo::GridFrame& frame) {
     return shift;
 }
 
+/// Bilinear: of `count` posts in a row from `column` on, whose places in the cell are u and v.
+[[RELEVO_CLONES("avx2", "default")]] void add_in_cell(int column, double cells_per_post, int cell, double v,
+                                                      const double* upper, const double* lower, int count,
+                                                      double* heights_m) {
+    const double a = upper[0], b = upper[1], c = lower[0], d = lower[1];
+    for (int i = 0; i < count; ++i) {
+        const double u = (column + i) * cells_per_post - cell;
+        heights_m[i] += (1 - v) * ((1 - u) * a + u * b) + v * ((1 - u) * c + u * d);
+    }
+}
+
 }  // namespace
 
 UndulationGrid::UndulationGrid(std::shared_ptr<const geo::Geoid> geoid, const geo::GridFrame& frame)
@@ -105,11 +118,9 @@ void UndulationGrid::add_row(int column, int row, int count, double* heights_m) 
         const int cell_end = cell == nodes_.columns() - 2 ? column + count : (cell + 1) << shift_;
         const double upper[] = {nodes_.at(cell, node_row), nodes_.at(cell + 1, node_row)};
         const double lower[] = {nodes_.at(cell, node_row + 1), nodes_.at(cell + 1, node_row + 1)};
-        for (const int end = std::min(cell_end - column, count); i < end; ++i) {
-            const double u = (column + i) * cells_per_post_ - cell;
-            heights_m[i] +=
-                (1 - v) * ((1 - u) * upper[0] + u * upper[1]) + v * ((1 - u) * lower[0] + u * lower[1]);
-        }
+        const int end = std::min(cell_end - column, count);
+        add_in_cell(column + i, cells_per_post_, cell, v, upper, lower, end - i, heights_m + i);
+        i = end;
     }
 }
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "lod/machine_clones.hpp"
 #include "lod/scene/post_mark.hpp"
-#include "lod/soar/machine_clones.hpp"
 
 namespace relevo::lod {
 

@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "lod/soar/machine_clones.hpp"
+#include "lod/machine_clones.hpp"
 
 namespace relevo::lod {
 

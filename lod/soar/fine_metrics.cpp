@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
+#include <cstring>
 
+#include "lod/machine_clones.hpp"
 #include "lod/scene/metric_code.hpp"
+#include "lod/soar/four.hpp"
 
 namespace relevo::lod {
 
@@ -12,6 +14,30 @@ namespace {
 
 GridPoint moved(const GridPoint& p, const GridPoint& by) {
     return {p.column + by.column, p.row + by.row};
+}
+
+/// From values of a row's classes to codes by column, by squares of 4 x 4.
+[[RELEVO_CLONES("avx2", "default")]] void codes_by_column(const float* const* classes, int lanes,
+                                                          std::uint16_t* by_column) {
+    typedef std::uint32_t Words __attribute__((vector_size(16), aligned(4), may_alias));
+    constexpr int kClasses = MetricTile::kClasses;
+    for (int c = 0; c < kClasses; c += 4) {
+        for (int k = 0; k < lanes; k += 4) {
+            constexpr int dropped = 23 - kCodeMantissaBits;
+            const FourWords w0 = *reinterpret_cast<const Words*>(classes[c] + k) >> dropped;
+            const FourWords w1 = *reinterpret_cast<const Words*>(classes[c + 1] + k) >> dropped;
+            const FourWords w2 = *reinterpret_cast<const Words*>(classes[c + 2] + k) >> dropped;
+            const FourWords w3 = *reinterpret_cast<const Words*>(classes[c + 3] + k) >> dropped;
+            // Codes have 16 bits: two classes to a word, then two words to a lane.
+            const FourWords w01 = w0 | w1 << 16;
+            const FourWords w23 = w2 | w3 << 16;
+            const FourWords pairs[] = {__builtin_shuffle(w01, w23, FourWords{0, 4, 1, 5}),
+                                       __builtin_shuffle(w01, w23, FourWords{2, 6, 3, 7})};
+            std::uint16_t* to = by_column + k * kClasses + c;
+            for (int i = 0; i < 4; ++i)
+                std::memcpy(to + i * kClasses, reinterpret_cast<const char*>(pairs) + 8 * i, 8);
+        }
+    }
 }
 
 }  // namespace
@@ -76,9 +102,10 @@ void FineMetrics::build_lanes(const GridPoint& first, int level, int s) {
         return result;
     };
     const std::ptrdiff_t i = tile.index(first);
-    const double* hole = tile.holes(i);
+    const bool all_valid = tile.all_valid(first.row - s, first.row + s);
+    const double* hole = all_valid ? nullptr : tile.holes(i);
     float* radius = radius_.data() + i;
-    if (tile.all_valid()) {
+    if (all_valid) {
         nest_radius(here, children, of_children(radius_), nullptr, lanes, radius);
     } else {
         const std::array<Lanes, 4> corners{left, right, posts(shape.apexes[0]), posts(shape.apexes[1])};
@@ -90,7 +117,8 @@ void FineMetrics::build_lanes(const GridPoint& first, int level, int s) {
     nest_error(m2.data(), of_children(incremental_), radius, lanes, incremental_.data() + i);
     if (!with_bounded_ || s == 1) return;
     diamond_posts(first, level, s)
-        .deviation2(tile.at(0), tile.holes(0), tile.offsets(first, s), lanes, m2.data());
+        .deviation2(tile.at(0), all_valid ? nullptr : tile.holes(0), tile.offsets(first, s), lanes,
+                    m2.data());
     const bool children_are_finest = s == 2 && level % 2 == 1;
     nest_error(m2.data(), of_children(children_are_finest ? incremental_ : bounded_), radius, lanes,
                bounded_.data() + i);
@@ -107,45 +135,38 @@ void FineMetrics::finish_last_level_lanes(const GridPoint& first, const DiamondS
         corners[k] = tile.at(at);
         holes[k + 1] = tile.holes(at);
     }
-    finish_last_level(tile.at(i), corners, tile.all_valid() ? nullptr : &holes, tile.lanes(),
-                      incremental_.data() + i, radius_.data() + i);
+    finish_last_level(tile.at(i), corners, tile.all_valid(first.row - 1, first.row + 1) ? nullptr : &holes,
+                      tile.lanes(), incremental_.data() + i, radius_.data() + i);
 }
 
 MetricRasters FineMetrics::codes(const BlockGrid::Box& box) const {
     using Codes = Raster<std::uint16_t>;
     MetricRasters result{Codes(box.columns, box.rows), Codes(box.columns, box.rows),
                          Codes(box.columns, box.rows)};
-    if (with_bounded_) {
-        cut(box, bounded_, false, result.bounded);
-        cut(box, incremental_, true, result.bounded);
-    }
-    for (const bool odd : {false, true}) {
-        cut(box, incremental_, odd, result.incremental);
-        cut(box, radius_, odd, result.radius);
-    }
+    if (with_bounded_) cut(box, bounded_, incremental_, result.bounded);
+    cut(box, incremental_, incremental_, result.incremental);
+    cut(box, radius_, radius_, result.radius);
     return result;
 }
 
-/// Of the posts at even columns and rows, or of the others.
-void FineMetrics::cut(const BlockGrid::Box& box, const std::vector<float>& values, bool of_odd_posts,
-                      Raster<std::uint16_t>& into) const {
+/// \param even  of the posts at even columns and rows, \param odd  of the others
+void FineMetrics::cut(const BlockGrid::Box& box, const std::vector<float>& even,
+                      const std::vector<float>& odd, Raster<std::uint16_t>& into) const {
+    constexpr int kClasses = MetricTile::kClasses;
     const int lanes = tile_->lanes();
-    const int lead = box.column - tile_->first_column();
+    const std::vector<float> none(static_cast<std::size_t>(lanes));
+    std::vector<std::uint16_t> by_column(static_cast<std::size_t>(kClasses * lanes));
+    std::array<const float*, kClasses> classes;
     for (int y = 0; y < box.rows; ++y) {
         const int row = box.row + y;
-        if (!of_odd_posts && row % 2 == 1) continue;
-        const float* from = values.data() + tile_->row_begin(row);
-        std::uint16_t* to = into.row(y);
-        const bool all = of_odd_posts && row % 2 == 1;
-        for (int c = of_odd_posts && !all ? 1 : 0; c < MetricTile::kClasses; c += all ? 1 : 2) {
-            if (row % coarse_ == 0 && c % coarse_ == 0) continue;
-            int x = (c - lead) % MetricTile::kClasses;
-            if (x < 0) x += MetricTile::kClasses;
-            const float* lane = from + c * lanes + (lead + x) / MetricTile::kClasses;
-            for (; x < box.columns; x += MetricTile::kClasses, ++lane)
-                to[x] = static_cast<std::uint16_t>(std::bit_cast<std::uint32_t>(*lane) >>
-                                                   (23 - kCodeMantissaBits));
+        for (int c = 0; c < kClasses; ++c) {
+            const bool is_fine = row % coarse_ != 0 || c % coarse_ != 0;
+            const std::vector<float>& values = row % 2 == 0 && c % 2 == 0 ? even : odd;
+            classes[static_cast<std::size_t>(c)] =
+                is_fine ? values.data() + tile_->row_begin(row) + c * lanes : none.data();
         }
+        codes_by_column(classes.data(), lanes, by_column.data());
+        std::copy_n(by_column.data() + (box.column - tile_->first_column()), box.columns, into.row(y));
     }
 }
 

@@ -50,7 +50,7 @@ class FineMetrics {
     void build_row(int row, int level, int s);
     void build_lanes(const GridPoint& first, int level, int s);
     void finish_last_level_lanes(const GridPoint& first, const DiamondShape& shape);
-    void cut(const BlockGrid::Box& box, const std::vector<float>& values, bool of_odd_posts,
+    void cut(const BlockGrid::Box& box, const std::vector<float>& even, const std::vector<float>& odd,
              Raster<std::uint16_t>& into) const;
 
     const MetricTile* tile_ = nullptr;

@@ -11,7 +11,8 @@
 
 namespace relevo::lod {
 
-// GCC and clang make of these what the machine has.
+// GCC and clang make of these what the machine has. Those with an alignment are for what lies anywhere in
+// memory; they are typedefs because in a `using` clang passes over the alignment.
 typedef double Four __attribute__((vector_size(32)));
 typedef double FourDoubles __attribute__((vector_size(32), aligned(8), may_alias));
 typedef long long FourWhole __attribute__((vector_size(32)));

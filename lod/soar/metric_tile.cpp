@@ -5,7 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "lod/soar/machine_clones.hpp"
+#include "lod/machine_clones.hpp"
+#include "lod/soar/four.hpp"
 
 namespace relevo::lod {
 
@@ -20,10 +21,32 @@ int valid_in(const float* heights, int count) {
     return valid;
 }
 
-/// From columns to classes.
-void deal(const double* by_column, int lanes, double* by_class) {
-    for (int c = 0; c < MetricTile::kClasses; ++c) {
-        for (int k = 0; k < lanes; ++k) by_class[c * lanes + k] = by_column[k * MetricTile::kClasses + c];
+[[RELEVO_CLONES("avx2", "default")]] void widen(const float* from, int count, double* to) {
+    for (int i = 0; i < count; ++i) to[i] = static_cast<double>(from[i]);
+}
+
+/// From columns to classes, by squares of 4 x 4.
+[[RELEVO_CLONES("avx2", "default")]] void deal(const double* by_column, int lanes, double* by_class) {
+    using Order = FourWhole;
+    constexpr int kClasses = MetricTile::kClasses;
+    for (int c = 0; c < kClasses; c += 4) {
+        for (int k = 0; k < lanes; k += 4) {
+            const auto* from = by_column + k * kClasses + c;
+            const Four a = *reinterpret_cast<const FourDoubles*>(from);
+            const Four b = *reinterpret_cast<const FourDoubles*>(from + kClasses);
+            const Four d = *reinterpret_cast<const FourDoubles*>(from + 2 * kClasses);
+            const Four e = *reinterpret_cast<const FourDoubles*>(from + 3 * kClasses);
+            const Four ab02 = __builtin_shuffle(a, b, Order{0, 4, 2, 6});
+            const Four ab13 = __builtin_shuffle(a, b, Order{1, 5, 3, 7});
+            const Four de02 = __builtin_shuffle(d, e, Order{0, 4, 2, 6});
+            const Four de13 = __builtin_shuffle(d, e, Order{1, 5, 3, 7});
+            const Four of_class[] = {__builtin_shuffle(ab02, de02, Order{0, 1, 4, 5}),
+                                     __builtin_shuffle(ab13, de13, Order{0, 1, 4, 5}),
+                                     __builtin_shuffle(ab02, de02, Order{2, 3, 6, 7}),
+                                     __builtin_shuffle(ab13, de13, Order{2, 3, 6, 7})};
+            for (int i = 0; i < 4; ++i)
+                *reinterpret_cast<FourDoubles*>(by_class + (c + i) * lanes + k) = of_class[i];
+        }
     }
 }
 
@@ -51,22 +74,38 @@ BlockGrid::Box MetricTile::window_of(const Box& tile, int padded_side, int halo)
 }
 
 void MetricTile::count_valid(const Box& window, const Raster<float>& heights) {
-    long long valid = 0;
-    for (int row = 0; row < heights.rows(); ++row) valid += valid_in(heights.row(row), heights.columns());
-    any_valid_ = valid > 0;
-    all_valid_ = valid == static_cast<long long>(window.columns) * window.rows;
+    any_valid_ = false;
+    rows_with_holes_.assign(1, 0);
+    for (int row = 0; row < window.rows; ++row) {
+        const int valid = row < heights.rows() ? valid_in(heights.row(row), heights.columns()) : 0;
+        any_valid_ = any_valid_ || valid > 0;
+        rows_with_holes_.push_back(rows_with_holes_.back() + (valid == window.columns ? 0 : 1));
+    }
+    all_valid_ = rows_with_holes_.back() == 0;
+}
+
+bool MetricTile::all_valid(int first_row, int last_row) const {
+    const auto before = [&](int row) {
+        return rows_with_holes_[static_cast<std::size_t>(std::clamp(row - window_.row, 0, window_.rows))];
+    };
+    return before(first_row) == before(last_row + 1);
 }
 
 void MetricTile::begin(const MeshGround& ground, const Box& window, const Raster<float>& heights) {
     count_valid(window, heights);
     if (any_valid_ && !all_valid_) own_filled_ = ground.fill.filled(window, heights);
-    begin(ground.positions, ground.undulations, window, heights, all_valid_ ? heights : own_filled_);
+    begin_counted(ground.positions, ground.undulations, window, heights, all_valid_ ? heights : own_filled_);
 }
 
 void MetricTile::begin(const geo::PostPositions& positions, const UndulationGrid& undulations,
                        const Box& window, const Raster<float>& heights, const Raster<float>& filled) {
-    assert(window.columns <= kMostColumns);
     count_valid(window, heights);
+    begin_counted(positions, undulations, window, heights, filled);
+}
+
+void MetricTile::begin_counted(const geo::PostPositions& positions, const UndulationGrid& undulations,
+                               const Box& window, const Raster<float>& heights, const Raster<float>& filled) {
+    assert(window.columns <= kMostColumns);
     window_ = window;
     placed_end_ = window.row;
     positions_ = &positions;
@@ -118,18 +157,21 @@ void MetricTile::place_row(int row) {
     const int first = window_.column - first_column_;
     const float* H = filled_->row(row - window_.row);
     double* h = height_.data() + first;
-    for (int i = 0; i < window_.columns; ++i) h[i] = static_cast<double>(H[i]);
+    widen(H, window_.columns, h);
     undulations_->add_row(window_.column, row, window_.columns, h);
     deal(height_.data(), lanes_, by_class_.data());
     place_lanes(row);
     if (all_valid_) return;
 
+    // In place of the heights, which are placed.
     const int y = row - window_.row;
-    double* hole = hole_.data() + row_begin(row);
-    std::fill_n(hole, row_samples(), kNothing);
-    for (int i = 0; i < heights_->columns() && y < heights_->rows(); ++i) {
-        if (!std::isnan(heights_->at(i, y))) hole[column_offset(window_.column + i)] = 0;
+    std::fill_n(h, window_.columns, kNothing);
+    if (y < heights_->rows()) {
+        // 0 or NaN.
+        widen(heights_->row(y), heights_->columns(), h);
+        for (int i = 0; i < heights_->columns(); ++i) h[i] *= 0;
     }
+    deal(height_.data(), lanes_, hole_.data() + row_begin(row));
 }
 
 void MetricTile::place_lanes(int row) {

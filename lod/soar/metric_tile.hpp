@@ -32,10 +32,9 @@ struct MeshGround {
 /// metres.
 ///
 /// Metrics are computed of many vertices at once, and the vertices of a level are 2s posts apart. So a row is
-/// not kept column by column but *class* by class: a class is every 32nd column, one lane after the other,
-/// and the neighbours of consecutive lanes at any offset are consecutive lanes too. (32 = 4s for the largest
-/// s of which vertices are computed so: the diamonds of a class all look the same.) Posts beyond the window
-/// are NaN.
+/// not kept column by column but *class* by class: a class is every 16th column, one lane after the other,
+/// and the neighbours of consecutive lanes at any offset are consecutive lanes too. (16 = 4s for the largest
+/// s of fine vertices: the diamonds of a class all look the same.) Posts beyond the window are NaN.
 class MetricTile {
   public:
     using Box = BlockGrid::Box;
@@ -43,7 +42,7 @@ class MetricTile {
     /// Posts around a tile that its vertices' metrics may depend on: the diamonds of all descendants of a
     /// vertex with half size s reach at most 3 s, and s is at most 4 (see FineMetrics).
     static constexpr int kHalo = 12;
-    static constexpr int kClasses = 32;
+    static constexpr int kClasses = 16;
     static constexpr int kMostColumns = kClasses * (kMostLanes - 2);
 
     /// The tile with its halo, cut at the grid's border.
@@ -80,6 +79,8 @@ class MetricTile {
     const Box& window() const { return window_; }
     bool any_valid() const { return any_valid_; }
     bool all_valid() const { return all_valid_; }
+    /// Of the window's part of some rows.
+    bool all_valid(int first_row, int last_row) const;
 
     /// \pre the post is in the window; as for is_valid
     glm::dvec3 position(const GridPoint& p) const {
@@ -128,6 +129,8 @@ class MetricTile {
         4;  // lanes may be looked at one before the first or after the last
 
     std::ptrdiff_t row_samples() const { return static_cast<std::ptrdiff_t>(kClasses) * lanes_; }
+    void begin_counted(const geo::PostPositions& positions, const UndulationGrid& undulations,
+                       const Box& window, const Raster<float>& heights, const Raster<float>& filled);
     void count_valid(const Box& window, const Raster<float>& heights);
     void place_row(int row);
     void place_lanes(int row);
@@ -138,6 +141,7 @@ class MetricTile {
     int lanes_ = 0;
     bool any_valid_ = false;
     bool all_valid_ = true;
+    std::vector<int> rows_with_holes_;  // of the window, before its row i
     std::vector<double> x_, y_, z_;
     std::vector<double> hole_;
     const geo::PostPositions* positions_ = nullptr;

@@ -156,24 +156,27 @@ void MetricBuilder::join_error(const GridPoint& v, double m) {
 /// halo.
 void MetricBuilder::scan_finest_coarse(const Workspace& work, const BlockGrid::Box& tile, int row) {
     constexpr int s = kSpacing;
-    static_assert(s <= DiamondPosts::kReach && s <= MetricTile::kHalo && 4 * s <= MetricTile::kClasses);
+    static_assert(s <= DiamondPosts::kReach && s <= MetricTile::kHalo && 2 * s == MetricTile::kClasses);
     const MetricTile& posts = work.posts;
     std::array<double, kMostLanes> m2;
     const bool odd_row = (row / s) % 2 == 1;
-    for (int c = 0; c < MetricTile::kClasses; c += s) {
-        const bool odd_column = (c / s) % 2 == 1;
-        if (!odd_row && !odd_column) continue;  // coarser
-        const int level = 2 * lattice_levels_ - (odd_row && odd_column ? 2 : 1);
-        const GridPoint first{posts.first_column() + c, row};
+    const auto scan = [&](const GridPoint& first, int level, int lane_step) {
         diamond_posts(first, level, s)
             .deviation2(posts.at(0), posts.holes(0), posts.offsets(first, s), posts.lanes(), m2.data());
-        for (int k = 0; k < posts.lanes(); ++k) {
+        for (int k = 0; k < posts.lanes(); k += lane_step) {
             const int column = first.column + k * MetricTile::kClasses;
             const double own = m2[static_cast<std::size_t>(k)];
             if (own > 0 && column >= tile.column && column < tile.column + tile.columns)
                 join_error({column, row}, std::sqrt(own));
         }
-    }
+    };
+    const int level = 2 * lattice_levels_ - (odd_row ? 2 : 1);
+    const int first_column = posts.first_column();
+    if (!odd_row) return scan({first_column + s, row}, level, 1);
+    scan({first_column, row}, level + 1, 1);
+    // The diamonds of squares' centres look alike at every second lane only.
+    scan({first_column + s, row}, level, 2);
+    scan({first_column + s + MetricTile::kClasses, row}, level, 2);
 }
 
 /// What is known already of a coarse vertex's nested error: at least its children's. That the other tiles may

@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "lod/machine_clones.hpp"
 #include "lod/soar/bits.hpp"
-#include "lod/soar/machine_clones.hpp"
 #include "lod/soar/vertex_placing.hpp"
 
 namespace relevo::lod {

@@ -2,8 +2,8 @@
 #include <array>
 #include <cstdint>
 
+#include "lod/machine_clones.hpp"
 #include "lod/soar/bits.hpp"
-#include "lod/soar/machine_clones.hpp"
 #include "lod/soar/tile_mesher.hpp"
 
 namespace relevo::lod {

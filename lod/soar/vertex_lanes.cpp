@@ -5,9 +5,10 @@
 #include <cmath>
 #include <cstdint>
 
+#include "lod/machine_clones.hpp"
 #include "lod/scene/metric_code.hpp"
 #include "lod/soar/fine_metrics.hpp"
-#include "lod/soar/machine_clones.hpp"
+#include "lod/soar/four.hpp"
 
 // The loops below are left to the compiler to vectorise, but for the longest one. CMake compiles this file
 // without errno and floating point traps, which change no result. Nothing here fuses a product and a sum, so
@@ -49,21 +50,14 @@ inline double surplus2_at(const Lanes& here, const Lanes& left, const Lanes& rig
     return dx * dx + dy * dy + dz * dz;
 }
 
-// Four doubles; GCC makes two SSE2 operations of each where there is no AVX.
-using Four = double __attribute__((vector_size(32)));
-
-// The same wherever it lies in memory. A typedef: in a `using`, clang passes over the alignment, and then
-// loads from wherever it is as if it lay at a multiple of 32.
-typedef double FourAnywhere __attribute__((vector_size(32), aligned(8), may_alias));
-
 struct Fours {
     Four x, y, z;
 };
 
 inline Fours load(const Lanes& posts, std::ptrdiff_t at) {
-    return {*reinterpret_cast<const FourAnywhere*>(posts.x + at),
-            *reinterpret_cast<const FourAnywhere*>(posts.y + at),
-            *reinterpret_cast<const FourAnywhere*>(posts.z + at)};
+    return {*reinterpret_cast<const FourDoubles*>(posts.x + at),
+            *reinterpret_cast<const FourDoubles*>(posts.y + at),
+            *reinterpret_cast<const FourDoubles*>(posts.z + at)};
 }
 inline Fours operator-(const Fours& a, const Fours& b) {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
@@ -81,7 +75,7 @@ inline void join_run(const Lanes& posts, const double* hole, std::ptrdiff_t row,
     for (int i = 0; i < count; ++i) {
         const Fours d = start + static_cast<double>(i) * step - load(posts, row + column[i]);
         Four m2 = d.x * d.x + d.y * d.y + d.z * d.z;
-        if (hole) m2 += *reinterpret_cast<const FourAnywhere*>(hole + row + column[i]);
+        if (hole) m2 += *reinterpret_cast<const FourDoubles*>(hole + row + column[i]);
         most = m2 > most ? m2 : most;
     }
 }
@@ -124,7 +118,7 @@ inline void join_run(const Lanes& posts, const double* hole, std::ptrdiff_t row,
             join_run(posts, hole, row_of(left.row + i * dy) + k, column_of(left.column + i * dx), 1, start,
                      step, most);
         }
-        *reinterpret_cast<FourAnywhere*>(m2 + k) = most;
+        *reinterpret_cast<FourDoubles*>(m2 + k) = most;
     }
 }
 

@@ -100,6 +100,15 @@ std::vector<float> plain_bounded(const lod::Raster<float>& heights, int levels) 
     return errors;
 }
 
+/// As lod::part_of, into memory that is used again.
+void copy_part(const lod::Raster<float>& heights, const lod::BlockGrid::Box& box, lod::Raster<float>& into) {
+    const int columns = std::clamp(heights.columns() - box.column, 0, box.columns);
+    const int rows = std::clamp(heights.rows() - box.row, 0, box.rows);
+    if (into.columns() != columns || into.rows() != rows) into = lod::Raster<float>(columns, rows);
+    for (int row = 0; row < rows; ++row)
+        std::copy_n(heights.row(box.row + row) + box.column, columns, into.row(row));
+}
+
 /// As an import does it, without the disk.
 void shipped(const geo::GridFrame& frame, const lod::UndulationGrid& undulations,
              const lod::MeshHeights& fill, const lod::Raster<float>& heights, lod::ObjectErrors errors,
@@ -112,7 +121,9 @@ void shipped(const geo::GridFrame& frame, const lod::UndulationGrid& undulations
         const auto grid = lod::BlockGrid::of_metrics(side);
         tbb::parallel_for(0, grid.count(), [&](int i) {
             const auto tile = grid.box(i % grid.across, i / grid.across);
-            builder.add_tile(tile, lod::part_of(heights, lod::MetricTile::window_of(tile, side)));
+            thread_local lod::Raster<float> window;
+            copy_part(heights, lod::MetricTile::window_of(tile, side), window);
+            builder.add_tile(tile, window);
         });
         builder.finish();
     });
