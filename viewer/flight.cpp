@@ -94,7 +94,7 @@ class Flight {
     /// Pieces of meshes and of what colours them that are being read.
     std::size_t pending() const {
         const lod::TileStore::Figures tiles = terrain_.tiles().figures();
-        const bool coming = view_.method != Method::full && !tiles.starved;  // else they have no room
+        const bool coming = view_.method != Method::full && !tiles.starved();  // else they have no room
         return renderer_.pending() + (coming ? tiles.pending_tiles : 0);
     }
 
@@ -111,9 +111,7 @@ class Flight {
     }
 
     /// At rest the budget goes on until tau does, too; but noise does not keep it going for ever.
-    bool budget_rests() const {
-        return !options_.budget.any() || budget_.at_rest() || still_frames_ > kBudgetFrames;
-    }
+    bool budget_rests() const { return budget_.at_rest() || still_frames_ > kBudgetFrames; }
 
     Result<void> write_record() const {
         if (options_.record.empty() || figures_.frames == 0) return {};
@@ -160,13 +158,12 @@ class Flight {
         const lod::View view = view_in(width, height);
         if (auto done = draw(view); !done) return done;
         draw_hud(view);
-        if (options_.budget.any()) {
-            // Without the wait for the screen, which a frame does not take longer for.
-            if (options_.budget.frame_ms) gl_finish();
-            const double ms = ms_since(start);
-            budget_.add(ms, figures_.triangles);
-            within_budget_ += budget_.holds(ms, figures_.triangles);
-        }
+        // Without the wait for the screen, which a frame does not take longer for.
+        if (options_.budget.frame_ms) gl_finish();
+        const FrameCost cost{ms_since(start), figures_.triangles,
+                             view_.method == Method::full ? 0 : terrain_.tiles().figures().memory_load};
+        budget_.add(cost);
+        within_budget_ += budget_.holds(cost);
         if (screenshot) {
             if (auto done = take_screenshot(); !done) tell(done.error().message);
         }
@@ -224,13 +221,9 @@ class Flight {
 
     Result<void> draw(const lod::View& view) {
         const auto start = Clock::now();
-        ViewState drawn_state = view_;
-        if (options_.budget.any()) {
-            if (view_.tau_px != finest_) budget_.set_finest(finest_ = view_.tau_px);
-            drawn_state.tau_px = budget_.tau_px();
-        }
-        figures_.tau_reached_px = drawn_state.tau_px;
-        const lod::Mesh& mesh = mesher_.mesh(view, drawn_state);
+        if (view_.tau_px != finest_) budget_.set_finest(finest_ = view_.tau_px);
+        const lod::Mesh& mesh = mesher_.mesh(view, view_, budget_);
+        figures_.tau_reached_px = view_.method == Method::full ? view_.tau_px : budget_.tau_px();
         refine_times_.add(ms_since(start));
         figures_.triangles = mesh.triangles();
         renderer_.upload(mesh);
@@ -249,7 +242,8 @@ class Flight {
 
     void draw_hud(const lod::View& view) {
         std::optional<double> reached;
-        if (options_.budget.any()) reached = figures_.tau_reached_px;
+        if (options_.budget.any() || figures_.tau_reached_px > view_.tau_px)
+            reached = figures_.tau_reached_px;
         const HudContent content{.view = view_,
                                  .vertical = &scene_.info().vertical,
                                  .cursor = cursor_,
@@ -257,6 +251,7 @@ class Flight {
                                  .speed_m_s = controls_.speed(view_),
                                  .triangles = figures_.triangles,
                                  .tau_reached_px = reached,
+                                 .tau_limit = options_.budget.any() ? "budget" : "memory",
                                  .playing = playing_,
                                  .recording = !options_.record.empty(),
                                  .frame_ms = frame_times_.shown(),

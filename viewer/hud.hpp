@@ -20,7 +20,8 @@ struct HudContent {
     std::optional<double> above_ground_m;         ///< of the eye
     double speed_m_s = 0;
     std::uint64_t triangles = 0;
-    std::optional<double> tau_reached_px;  ///< where a budget chooses it
+    std::optional<double> tau_reached_px;  ///< where it is not the view's
+    std::string_view tau_limit;            ///< what makes it so
     bool playing = false;                  ///< a recorded flight
     bool recording = false;
     double frame_ms = 0;

@@ -58,7 +58,8 @@ std::string eye_text(geo::OrthometricHeight H, const lod::VerticalReference& ver
 
 std::string tau_text(const HudContent& content) {
     if (!content.tau_reached_px) return fmt::format("tau {:.3g} px", content.view.tau_px);
-    return fmt::format("tau {:.2f} px of {:.3g} by budget", *content.tau_reached_px, content.view.tau_px);
+    return fmt::format("tau {:.2f} px of {:.3g} by {}", *content.tau_reached_px, content.view.tau_px,
+                       content.tau_limit);
 }
 
 float view_panel(const HudContent& content) {

@@ -7,6 +7,7 @@
 
 #include "lod/soar/full_mesh.hpp"
 #include "lod/soar/refiner.hpp"
+#include "viewer/frame_budget.hpp"
 #include "viewer/view_state.hpp"
 
 namespace relevo::viewer {
@@ -22,6 +23,16 @@ class Mesher {
         if (state.method == Method::full) return full(view, state);
         terrain_.tiles().start_frame();
         look_ahead(view, options(state));
+        return refiner_.refine(view, options(state));
+    }
+
+    /// As fine as the budget allows; it is to be told what the frame cost.
+    const lod::Mesh& mesh(const lod::View& view, ViewState state, FrameBudget& budget) {
+        if (state.method == Method::full) return full(view, state);
+        state.tau_px = budget.tau_px();
+        const lod::Mesh& first = mesh(view, state);
+        if (!budget.coarsen(first.triangles())) return first;
+        state.tau_px = budget.tau_px();
         return refiner_.refine(view, options(state));
     }
 

@@ -164,7 +164,7 @@ std::optional<Hit> pick_exactly(const Terrain& terrain, const geo::Ecef& origin,
         const auto hit = pick(terrain, origin, direction, exaggeration);
         if (hit && hit->is_exact) return hit;
         tiles.start_frame();
-        if (tiles.figures().pending_tiles == 0 || tiles.figures().starved || !tiles.wait()) return hit;
+        if (tiles.figures().pending_tiles == 0 || tiles.figures().starved() || !tiles.wait()) return hit;
         tiles.start_frame();
     }
 }

@@ -362,7 +362,7 @@ Result<const Mesh*> Refiner::refine_whole(const View& view, const RefineOptions&
         tiles.start_frame();  // hands over what was missing
         if (auto failure = tiles.failure()) return *failure;
         const TileStore::Figures figures = tiles.figures();
-        if (figures.starved) {
+        if (figures.starved()) {
             return Error{ErrorKind::input,
                          fmt::format("the view needs {} more tiles than fit in the memory for them; ask for "
                                      "less detail (--tau) or allow more (--memory)",

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cassert>
+#include <iterator>
 #include <utility>
+
+#include "lod/background_thread.hpp"
 
 namespace relevo::lod {
 
@@ -79,7 +82,10 @@ void TileStore::for_each_dependence(const TileId& id, Visit visit) const {
 }
 
 void TileStore::start_frame() {
-    if (used_.exchange(false)) last_drawn_ = frame_++;
+    if (used_.exchange(false)) {
+        last_drawn_ = frame_++;
+        keep_dependences();
+    }
     // Before anything is taken in: what the last frame missed it missed, even if it has come since.
     std::vector<Wish> wishes = take_wishes();
     std::vector<Arrival> arrivals;
@@ -120,20 +126,23 @@ void TileStore::take_in(std::vector<Arrival>& arrivals) {
     });
 }
 
-/// Drops tiles that the last frame did not draw with and nothing that it drew with depends on, those first
-/// that have not been used for longest.
-void TileStore::make_room(std::size_t bytes) {
+/// What a drawn tile depends on is drawn with, too.
+void TileStore::keep_dependences() {
     // Finest first: what a kept tile depends on is marked before it is met.
-    std::vector<Resident*> idle;
     for (auto at = residents_.rbegin(); at != residents_.rend(); ++at) {
-        if ((*at)->used_in_frame < last_drawn_) {
-            idle.push_back(*at);
-            continue;
-        }
+        if ((*at)->used_in_frame < last_drawn_) continue;
         for_each_dependence((*at)->tile.id(), [&](const TileId& id) {
             if (Resident* other = slot(id).get()) other->used_in_frame = last_drawn_;
         });
     }
+}
+
+/// Drops tiles that the last frame did not draw with, those first that have not been used for longest.
+void TileStore::make_room(std::size_t bytes) {
+    keep_dependences();  // also of what has come and was not drawn yet
+    std::vector<Resident*> idle;
+    std::copy_if(residents_.rbegin(), residents_.rend(), std::back_inserter(idle),
+                 [&](const Resident* tile) { return tile->used_in_frame < last_drawn_; });
     std::stable_sort(idle.begin(), idle.end(), [](const Resident* a, const Resident* b) {
         return a->used_in_frame < b->used_in_frame;
     });
@@ -228,7 +237,8 @@ void TileStore::pass_on(std::vector<Wish> wishes) {
     const std::size_t tile_bytes = sizeof(Resident) + std::size_t{40} * 1024;
     const std::size_t room =
         options_.memory_bytes > in_use ? (options_.memory_bytes - in_use) / tile_bytes : 0;
-    starved_ = static_cast<std::size_t>(needed) > room;
+    memory_load_ = static_cast<double>(in_use + static_cast<std::size_t>(needed) * tile_bytes) /
+                   static_cast<double>(options_.memory_bytes);
     if (wishes.size() > room) wishes.erase(wishes.begin(), wishes.end() - static_cast<std::ptrdiff_t>(room));
 
     const std::lock_guard lock(mutex_);
@@ -292,6 +302,7 @@ bool TileStore::read_next(std::unique_lock<std::mutex>& lock) {
 }
 
 void TileStore::run_reader(const std::stop_token& stop) {
+    stand_back();
     std::unique_lock lock(mutex_);
     while (!stop.stop_requested()) {
         if (!read_next(lock)) work_.wait(lock, stop, [&] { return !queue_.empty(); });
@@ -312,7 +323,7 @@ std::optional<Error> TileStore::failure() const {
 
 TileStore::Figures TileStore::figures() const {
     const std::lock_guard lock(mutex_);
-    return {resident_bytes_, residents_.size(), pending_, starved_, read_blocks_};
+    return {resident_bytes_, residents_.size(), pending_, memory_load_, read_blocks_};
 }
 
 }  // namespace relevo::lod

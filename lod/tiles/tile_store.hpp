@@ -52,8 +52,11 @@ class TileStore {
         std::size_t resident_bytes = 0;
         std::size_t resident_tiles = 0;
         std::size_t pending_tiles = 0;  ///< wanted by the last frame and not there
-        bool starved = false;           ///< what the last frame wants does not fit in the memory
+        double memory_load = 0;         ///< what the last frame draws with and wants, over the memory
         std::uint64_t read_blocks = 0;  ///< since the start
+
+        /// What the last frame wants does not fit in the memory.
+        bool starved() const { return memory_load > 1; }
     };
 
     /// Reads the coarsest block of the pyramid. The arguments outlive this.
@@ -147,6 +150,7 @@ class TileStore {
     bool read_next(std::unique_lock<std::mutex>& lock);
     void take_in(std::vector<Arrival>& arrivals);
     void update_presence();
+    void keep_dependences();
     void make_room(std::size_t bytes);
     std::vector<Wish> take_wishes();
     void pass_on(std::vector<Wish> wishes);
@@ -168,7 +172,7 @@ class TileStore {
     std::uint64_t last_drawn_ = 0;      // the last that drew with anything
     mutable std::atomic<bool> used_{false};
     bool fading_ = false;
-    bool starved_ = false;
+    double memory_load_ = 0;
     std::set<TileId> failed_;
     std::optional<Error> failure_;
 

@@ -40,21 +40,9 @@ std::vector<double> run(FrameBudget& budget, Machine& machine, int frames) {
     for (int i = 0; i < frames; ++i) {
         const double tau = budget.tau_px();
         taus.push_back(tau);
-        budget.add(machine.ms(tau), static_cast<std::uint64_t>(machine.triangles(tau)));
+        budget.add({machine.ms(tau), static_cast<std::uint64_t>(machine.triangles(tau))});
     }
     return taus;
-}
-
-/// Frames until the picture has taken a second, each at its own cost, ends of the run included.
-int frames_of_a_second(Machine machine, const std::vector<double>& taus) {
-    double ms = 0;
-    int frames = 0;
-    for (const double tau : taus) {
-        ms += machine.mean_ms(tau);
-        ++frames;
-        if (ms > 1000) break;
-    }
-    return frames;
 }
 
 struct Case {
@@ -75,26 +63,52 @@ class Budgets : public testing::TestWithParam<Case> {
     }
 };
 
-TEST_P(Budgets, FramesComeToTheirTimeOneWayAndInAboutASecond) {
+TEST_P(Budgets, BeginsCoarseAndComesToItsTimeOneWay) {
     Machine m = machine();
     FrameBudget budget({.frame_ms = GetParam().budget_ms, .triangles = {}}, 0.25);
     const auto taus = run(budget, m, 600);
-    const double aimed = std::max(m.tau_for(FrameBudget::kAim * GetParam().budget_ms), 0.25);
-    // It only grows, and not beyond what it aims at by more than the dead band may leave.
+    EXPECT_GE(taus.front(), 4);
     for (std::size_t i = 1; i < taus.size(); ++i) {
-        EXPECT_GE(taus[i], taus[i - 1] * 0.999) << "frame " << i;
-        EXPECT_LE(taus[i], taus[i - 1] * 1.25) << "frame " << i;
+        EXPECT_LE(taus[i], taus[i - 1] * 1.001) << "frame " << i;
+        EXPECT_GE(taus[i], taus[i - 1] / 1.12) << "frame " << i;
+        EXPECT_LE(m.mean_ms(taus[i]), GetParam().budget_ms) << "frame " << i;
     }
-    EXPECT_LE(m.mean_ms(taus.back()), GetParam().budget_ms);
     EXPECT_GE(m.mean_ms(taus.back()), 0.84 * GetParam().budget_ms) << "too careful: tau " << taus.back();
-    // A second after the frames came within 1.5 times their time they keep to it.
-    std::size_t i = 0;
-    while (m.mean_ms(taus[i]) > 1.5 * GetParam().budget_ms) ++i;
-    EXPECT_LE(i, 30u) << "frames until it is nearly there";
-    i += static_cast<std::size_t>(
-        frames_of_a_second(m, {taus.begin() + static_cast<std::ptrdiff_t>(i), taus.end()}));
-    EXPECT_LE(m.mean_ms(taus[i]), 1.02 * GetParam().budget_ms) << "tau " << taus[i] << " of " << aimed;
+    // From 8 pixels to the finest of these machines' in steps of 11 %.
+    EXPECT_GE(m.mean_ms(taus[40]), 0.8 * GetParam().budget_ms) << "tau " << taus[40];
     EXPECT_TRUE(budget.at_rest());
+}
+
+TEST_P(Budgets, NearlyAllFramesKeepToTheirTimeHoweverTheyScatter) {
+    for (const double noise : {0.02, 0.05, 0.1, 0.2}) {
+        Machine m = machine();
+        m.noise = noise;
+        const double limit = GetParam().budget_ms;
+        if (m.fixed_ms > limit / (1 + 3 * noise)) continue;  // there is no such tau
+        FrameBudget budget({.frame_ms = limit, .triangles = {}}, 0.05);
+        run(budget, m, 300);
+        int beyond = 0;
+        for (int i = 0; i < 1000; ++i) {
+            const double tau = budget.tau_px();
+            const FrameCost cost{m.ms(tau), static_cast<std::uint64_t>(m.triangles(tau))};
+            beyond += budget.holds(cost) ? 0 : 1;
+            budget.add(cost);
+        }
+        EXPECT_LE(beyond, 25) << "of 1000 frames that scatter by " << noise;
+    }
+}
+
+TEST_P(Budgets, AMeshThatWillTakeTooLongIsNotDrawn) {
+    Machine m = machine();
+    FrameBudget budget({.frame_ms = GetParam().budget_ms, .triangles = {}}, 0.05);
+    run(budget, m, 100);
+    const double before = budget.tau_px();
+    EXPECT_FALSE(budget.coarsen(static_cast<std::uint64_t>(m.triangles(before))));
+    EXPECT_EQ(budget.tau_px(), before);
+    m.count *= 4;  // the camera turns to the mountains
+    EXPECT_TRUE(budget.coarsen(static_cast<std::uint64_t>(m.triangles(before))));
+    EXPECT_GT(budget.tau_px(), 1.3 * before);
+    EXPECT_LT(m.mean_ms(budget.tau_px()), 0.6 * m.mean_ms(before) + 0.6 * GetParam().budget_ms);
 }
 
 TEST_P(Budgets, FinerAgainWhenFramesGetCheapWithoutSwinging) {
@@ -149,7 +163,7 @@ TEST_P(Budgets, OneSlowFrameIsNotSeen) {
     FrameBudget budget({.frame_ms = GetParam().budget_ms, .triangles = {}}, 0.25);
     run(budget, m, 300);
     const double before = budget.tau_px();
-    budget.add(50 * GetParam().budget_ms, static_cast<std::uint64_t>(m.triangles(before)));
+    budget.add({50 * GetParam().budget_ms, static_cast<std::uint64_t>(m.triangles(before))});
     for (int i = 0; i < 50; ++i) {
         EXPECT_NEAR(budget.tau_px(), before, 0.12 * before) << i;
         run(budget, m, 1);
@@ -163,6 +177,7 @@ INSTANTIATE_TEST_SUITE_P(Machines, Budgets,
 TEST(FrameBudget, NeverFinerThanTheUsersTauNorCoarserThanTheCoarsest) {
     Machine m;
     FrameBudget rich({.frame_ms = 1e6, .triangles = {}}, 0.7);
+    run(rich, m, 40);  // it begins coarse
     for (const double tau : run(rich, m, 100)) EXPECT_EQ(tau, 0.7);
     FrameBudget poor({.frame_ms = 1, .triangles = {}}, 0.7);  // less than the fixed part
     const auto taus = run(poor, m, 200);
@@ -170,6 +185,23 @@ TEST(FrameBudget, NeverFinerThanTheUsersTauNorCoarserThanTheCoarsest) {
     EXPECT_DOUBLE_EQ(taus.back(), FrameBudget::kCoarsestPx);
     FrameBudget coarse({.frame_ms = 1, .triangles = {}}, 100);  // the user's is coarser already
     for (const double tau : run(coarse, m, 10)) EXPECT_EQ(tau, 100);
+}
+
+TEST(FrameBudget, TauGrowsUntilTheTerrainFitsInItsMemory) {
+    FrameBudget budget({}, 0.5);
+    const auto memory_at = [](double tau) { return 3 * std::pow(tau, -1.2); };  // too much below 2.6 pixels
+    std::vector<double> taus;
+    for (int i = 0; i < 100; ++i) {
+        taus.push_back(budget.tau_px());
+        budget.add({10, 1000, memory_at(taus.back())});
+    }
+    EXPECT_EQ(taus.front(), 0.5);
+    EXPECT_TRUE(std::is_sorted(taus.begin(), taus.end()));
+    EXPECT_LE(memory_at(taus.back()), 1);
+    EXPECT_GE(memory_at(taus.back()), 0.85);
+    EXPECT_TRUE(budget.at_rest());
+    for (int i = 0; i < 100; ++i) budget.add({10, 1000, 0.1});
+    EXPECT_EQ(budget.tau_px(), 0.5);
 }
 
 TEST(FrameBudget, TheUsersTauMayChangeOnTheWay) {
@@ -210,9 +242,9 @@ TEST(FrameBudget, OfTwoLimitsTheStricterCounts) {
     run(other, m, 300);
     EXPECT_LE(m.mean_ms(other.tau_px()), 33);
     EXPECT_GE(m.mean_ms(other.tau_px()), 27);
-    EXPECT_TRUE(budget.holds(33, 5000));
-    EXPECT_FALSE(budget.holds(33.1, 5000));
-    EXPECT_FALSE(budget.holds(33, 5001));
+    EXPECT_TRUE(budget.holds({33, 5000}));
+    EXPECT_FALSE(budget.holds({33.1, 5000}));
+    EXPECT_FALSE(budget.holds({33, 5001}));
 }
 
 TEST(FrameBudget, FindsTheTauOfAStillPicture) {

@@ -40,7 +40,7 @@ Result<std::unique_ptr<BenchMesher>> BenchMesher::create(const lod::Scene& scene
 }
 
 Result<BenchMesher::Made> BenchMesher::mesh(const lod::View& view, const ViewState& state,
-                                            const BenchSetting& setting, double tau_px) {
+                                            const BenchSetting& setting, double tau_px, FrameBudget* budget) {
     if (textbook_) {
         const auto start = Clock::now();
         textbook_->refine(view, state.H, tau_px);
@@ -53,7 +53,7 @@ Result<BenchMesher::Made> BenchMesher::mesh(const lod::View& view, const ViewSta
     asked.tau_px = tau_px;
     const auto timed = [&] {
         const auto start = Clock::now();
-        const lod::Mesh& made = mesher_.mesh(view, asked);
+        const lod::Mesh& made = budget ? mesher_.mesh(view, asked, *budget) : mesher_.mesh(view, asked);
         return Made{&made, ms_since(start)};
     };
     const Made made = timed();

@@ -28,9 +28,9 @@ class BenchMesher {
         const lod::Mesh* mesh;  ///< valid until the next call
         double refine_ms;
     };
-    /// \param view  of the state, in a picture
+    /// \param view  of the state, in a picture \param budget  that chooses tau, or null
     Result<Made> mesh(const lod::View& view, const ViewState& state, const BenchSetting& setting,
-                      double tau_px);
+                      double tau_px, FrameBudget* budget = nullptr);
 
     /// What the renderer draws from and errors are measured against.
     const lod::Terrain& terrain() const { return terrain_; }

@@ -66,10 +66,12 @@ class MethodRun {
         if (auto warm = draw(row.setting, flight_.begin_s(), budget.tau_px(), {}); !warm) return warm.error();
         const double length = std::min(options_.budget_s, flight_.duration_s());
         for (double time = 0; time <= length;) {
-            const auto frame = draw(row.setting, flight_.begin_s() + time, budget.tau_px(), {});
+            const auto frame = draw(row.setting, flight_.begin_s() + time, budget.tau_px(), {}, &budget);
             if (!frame) return frame.error();
-            budget.add(frame->frame_ms(), frame->triangles);
-            row.frames_within_budget += budget.holds(frame->frame_ms(), frame->triangles);
+            const FrameCost cost{frame->frame_ms(), frame->triangles,
+                                 mesher_.terrain().tiles().figures().memory_load};
+            budget.add(cost);
+            row.frames_within_budget += budget.holds(cost);
             row.frames.push_back(*frame);
             time += std::max(frame->frame_ms(), 1.0) / 1000;
         }
@@ -88,17 +90,17 @@ class MethodRun {
         bool jump = false;
     };
 
-    Result<BenchFrame> draw(const BenchSetting& setting, double time_s, double tau_px,
-                            const Measure& measure) {
+    Result<BenchFrame> draw(const BenchSetting& setting, double time_s, double tau_px, const Measure& measure,
+                            FrameBudget* budget = nullptr) {
         const ViewState state = state_at(time_s);
         const lod::View view(camera_of(state, heights_, options_.width, options_.height));
-        const auto mesh = mesher_.mesh(view, state, setting, tau_px);
+        const auto mesh = mesher_.mesh(view, state, setting, tau_px, budget);
         if (!mesh) return mesh.error();
         const BenchMesher::Made& made = *mesh;
         BenchFrame frame;
         frame.run = run_;
         frame.time_s = time_s;
-        frame.tau_px = tau_px;
+        frame.tau_px = budget ? budget->tau_px() : tau_px;
         frame.refine_ms = made.refine_ms;
         frame.triangles = made.mesh->triangles();
         frame.vertices = made.mesh->vertices.size();

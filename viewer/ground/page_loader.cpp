@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "lod/background_thread.hpp"
+
 namespace relevo::viewer {
 
 PageLoader::PageLoader(std::function<Result<PageTexels>(const Page&)> load, int threads)
@@ -61,6 +63,7 @@ std::optional<PageLoader::Loaded> PageLoader::wait() {
 }
 
 void PageLoader::work() {
+    stand_back();
     std::unique_lock lock(mutex_);
     while (true) {
         // A page that is begun will be ready: it counts.
