@@ -100,7 +100,9 @@ Result<viewer::BenchOptions> read_options(const BenchFlags& flags) {
         if (!methods) return methods.error();
         options.methods = *methods;
     }
-    options.tiles = tile_options(flags.view, 0.5);
+    const auto tiles = tile_options(flags.view, 0.5);
+    if (!tiles) return tiles.error();
+    options.tiles = *tiles;
     options.ground_bytes = texel_bytes(flags.view);
     const auto budget = read_budget(flags.budget);
     if (!budget) return budget.error();

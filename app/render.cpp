@@ -108,9 +108,12 @@ Result<void> run(const RenderFlags& flags) {
     if (!background) return background.error();
     if (auto known = viewer::check_picture_name(flags.output); !known) return known;
 
+    const auto tiles = tile_options(flags.view, 0);
+    if (!tiles) return tiles.error();
+
     const auto scene = lod::Scene::open(flags.scene);
     if (!scene) return scene.error();
-    const auto terrain = lod::Terrain::open(*scene, view->metric, tile_options(flags.view, 0));
+    const auto terrain = lod::Terrain::open(*scene, view->metric, *tiles);
     if (!terrain) return terrain.error();
     const auto heights = viewer::EyeHeight::create(scene->info().vertical.datum);
     if (!heights) return heights.error();

@@ -90,9 +90,12 @@ Result<void> run(const WindowFlags& flags) {
         put(*view, play->keys().front());
     }
 
+    const auto tiles = tile_options(flags.view, 0.5);
+    if (!tiles) return tiles.error();
+
     const auto scene = lod::Scene::open(flags.scene);
     if (!scene) return scene.error();
-    const auto terrain = lod::Terrain::open(*scene, view->metric, tile_options(flags.view, 0.5));
+    const auto terrain = lod::Terrain::open(*scene, view->metric, *tiles);
     if (!terrain) return terrain.error();
     const auto heights = viewer::EyeHeight::create(scene->info().vertical.datum);
     if (!heights) return heights.error();

@@ -104,12 +104,15 @@ Result<viewer::BudgetLimits> read_budget(const BudgetFlags& flags) {
     return viewer::BudgetLimits{flags.budget_ms, flags.max_triangles};
 }
 
-lod::TileStoreOptions tile_options(const ViewFlags& flags, double fade_s) {
+Result<lod::TileStoreOptions> tile_options(const ViewFlags& flags, double fade_s) {
     lod::TileStoreOptions options;
     options.memory_bytes = static_cast<std::size_t>(flags.memory / 4);
     options.fade_s = fade_s;
     if (const char* delay = std::getenv("RELEVO_READ_DELAY_MS")) {
-        options.read_delay_s = std::atof(delay) / 1000;
+        const auto ms = viewer::parse_numbers(delay);
+        if (!ms || ms->size() != 1 || !(ms->front() >= 0 && ms->front() <= 60000))
+            return usage(fmt::format("RELEVO_READ_DELAY_MS={}: 0 to 60000 milliseconds", delay));
+        options.read_delay_s = ms->front() / 1000;
         options.threads = 8;  // that sleep most of the time
     }
     return options;

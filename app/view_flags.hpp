@@ -35,7 +35,7 @@ void add_view_flags(CLI::App& command, ViewFlags& flags);
 /// What --memory leaves for tiles. The environment variable RELEVO_READ_DELAY_MS delays each read of them, to
 /// try how a slow disk looks.
 /// \param fade_s  in which what arrives comes in
-lod::TileStoreOptions tile_options(const ViewFlags& flags, double fade_s);
+Result<lod::TileStoreOptions> tile_options(const ViewFlags& flags, double fade_s);
 /// What it leaves for the ground's texels.
 std::size_t texel_bytes(const ViewFlags& flags);
 

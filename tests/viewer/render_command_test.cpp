@@ -56,6 +56,16 @@ TEST_F(RenderCommand, WithoutMeasuringTheErrorIsNull) {
     EXPECT_EQ(json["triangles"], 2 * 128 * 128);
 }
 
+TEST_F(RenderCommand, ADelayThatIsNoNumberIsRefused) {
+    for (const char* delay : {"abc", "-1", "1,2", "1e9", ""}) {
+        const auto run = render("", std::string("RELEVO_READ_DELAY_MS=") + delay);
+        EXPECT_EQ(run.status, 2) << delay;
+        EXPECT_NE(run.err.find("RELEVO_READ_DELAY_MS"), std::string::npos) << run.err;
+        EXPECT_FALSE(fs::exists(picture_));
+    }
+    EXPECT_EQ(render("", "RELEVO_READ_DELAY_MS=1.5").status, 0);
+}
+
 TEST_F(RenderCommand, TauGrowsToANumberOfTriangles) {
     const auto run = render("--json --tau 0.25 --max-triangles 700 --measure-error");
     ASSERT_EQ(run.status, 0) << run.err;
