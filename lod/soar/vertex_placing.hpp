@@ -59,8 +59,8 @@ class VertexPlacing {
     /// Looks at the candidates and puts those into the mesh that are allowed and needed.
     /// \param presence  of the vertex i in row k: how far it may have come in
     /// \param ends  (i, k): of the edge that the vertex splits
-    template <class Presence, class Ends>
-    RELEVO_INLINE void place(const VertexRows& rows, Presence presence, Ends ends) {
+    template <class Presence, class EndsOf>
+    RELEVO_INLINE void place(const VertexRows& rows, Presence presence, EndsOf ends) {
         const int count = list_groups(rows);
         std::fill_n(rows.here, rows.rows, Bits{0});
         std::fill_n(rows.seen, rows.rows, Bits{0});
@@ -137,31 +137,10 @@ class VertexPlacing {
                 next += static_cast<std::uint32_t>(here >> i & 1);
             }
         }
-        if (!test_.moving) {
+        if (test_.moving) {
+            move_in(rows, count, presence, ends);
+        } else {
             out_.next_vertex = next;
-            return;
-        }
-        for (int n = 0; n < count; ++n) {
-            const Found& four = found_[n];
-            const int k = listed_[n] / kMostGroups;
-            const int group = listed_[n] % kMostGroups;
-            for (Bits here = four.here; here != 0;) {
-                const int lane = next_bit(here);
-                const int i = 4 * group + lane;
-                const glm::dvec3 exact(four.x[lane], four.y[lane], four.z[lane]);
-                const auto [begin, end] = ends(i, k);
-                const PlacedVertex& a = out_.placed[begin];
-                const PlacedVertex& b = out_.placed[end];
-                const double come_in = std::min(four.come_in[lane], presence(i, k));
-                const glm::dvec3 drawn =
-                    0.5 * (a.drawn + b.drawn) + come_in * (exact - 0.5 * (a.exact + b.exact));
-                out_.placed[out_.next_vertex] = {exact, drawn};
-                out_.vertices[out_.next_vertex] = {
-                    static_cast<float>(drawn.x), static_cast<float>(drawn.y), static_cast<float>(drawn.z),
-                    static_cast<std::uint16_t>(grid_column(rows, i)),
-                    static_cast<std::uint16_t>(first_.row + ((rows.first.row + 2 * k) << level_))};
-                rows.vertex[k * rows.stride + i] = out_.next_vertex++;
-            }
         }
     }
 
@@ -191,6 +170,33 @@ class VertexPlacing {
     }
     RELEVO_INLINE int grid_column(const VertexRows& rows, int i) const {
         return first_.column + ((rows.first.column + 2 * i) << level_);
+    }
+
+    /// Makes what was found, in places between where it is and the middle of its edge.
+    template <class Presence, class EndsOf>
+    RELEVO_INLINE void move_in(const VertexRows& rows, int count, Presence presence, EndsOf ends) {
+        for (int n = 0; n < count; ++n) {
+            const Found& four = found_[n];
+            const int k = listed_[n] / kMostGroups;
+            const int group = listed_[n] % kMostGroups;
+            for (Bits here = four.here; here != 0;) {
+                const int lane = next_bit(here);
+                const int i = 4 * group + lane;
+                const glm::dvec3 exact(four.x[lane], four.y[lane], four.z[lane]);
+                const auto [begin, end] = ends(i, k);
+                const PlacedVertex& a = out_.placed[begin];
+                const PlacedVertex& b = out_.placed[end];
+                const double come_in = std::min(four.come_in[lane], presence(i, k));
+                const glm::dvec3 drawn =
+                    0.5 * (a.drawn + b.drawn) + come_in * (exact - 0.5 * (a.exact + b.exact));
+                out_.placed[out_.next_vertex] = {exact, drawn};
+                out_.vertices[out_.next_vertex] = {
+                    static_cast<float>(drawn.x), static_cast<float>(drawn.y), static_cast<float>(drawn.z),
+                    static_cast<std::uint16_t>(grid_column(rows, i)),
+                    static_cast<std::uint16_t>(first_.row + ((rows.first.row + 2 * k) << level_))};
+                rows.vertex[k * rows.stride + i] = out_.next_vertex++;
+            }
+        }
     }
 
     struct Place {
