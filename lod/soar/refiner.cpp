@@ -342,7 +342,7 @@ void Refiner::Workshop::look_ahead(const TileStore::Resident& resident, unsigned
         if (const TileStore::Resident* child = tiles.find(below)) {
             look_ahead(*child, inside);
         } else {
-            tiles.want(below, urgency(tile, quarter), TileStore::Need::soon);
+            tiles.want(below, urgency(tile, quarter), TileNeed::soon);
         }
     }
 }

@@ -6,8 +6,6 @@
 #include <iterator>
 #include <utility>
 
-#include "lod/background_thread.hpp"
-
 namespace relevo::lod {
 
 Result<std::unique_ptr<TileStore>> TileStore::open(const Pyramid& pyramid,
@@ -41,31 +39,19 @@ Result<std::unique_ptr<TileStore>> TileStore::open(const Pyramid& pyramid,
         const auto H = posts->heights.at(column == 0 ? 0 : in_block, row == 0 ? 0 : in_block);
         store->corners_[k] = {corners[k], static_cast<double>(H), undulations.at(column, row)};
     }
-    for (int i = 0; i < options.threads; ++i) {
-        store->readers_.emplace_back(
-            [raw = store.get()](const std::stop_token& stop) { raw->run_reader(stop); });
-    }
     return store;
 }
 
 TileStore::TileStore(const Pyramid& pyramid, const geo::PostPositions& positions,
                      const UndulationGrid& undulations, ErrorMetric metric, const TileStoreOptions& options)
-    : pyramid_(pyramid),
-      positions_(positions),
-      undulations_(undulations),
-      metric_(metric),
-      options_(options),
-      grid_(pyramid.frame()) {
+    : options_(options),
+      grid_(pyramid.frame()),
+      reader_(pyramid, positions, undulations, metric, options.threads, options.read_delay_s) {
     for (int level = 0; level < grid_.levels; ++level) {
         across_.push_back(grid_.across(level));
         levels_.emplace_back(static_cast<std::size_t>(across_.back()) *
                              static_cast<std::size_t>(across_.back()));
     }
-}
-
-TileStore::~TileStore() {
-    for (std::jthread& reader : readers_) reader.request_stop();
-    work_.notify_all();
 }
 
 template <class Visit>
@@ -87,38 +73,33 @@ void TileStore::start_frame() {
         keep_dependences();
     }
     // Before anything is taken in: what the last frame missed it missed, even if it has come since.
-    std::vector<Wish> wishes = take_wishes();
-    std::vector<Arrival> arrivals;
-    {
-        const std::lock_guard lock(mutex_);
-        arrivals.swap(arrivals_);
-    }
+    std::vector<TileWish> wishes = take_wishes();
+    std::vector<TileReader::Arrival> arrivals = reader_.take();
     const bool changed = !arrivals.empty();
-    take_in(arrivals);
+    take_in(std::move(arrivals));
     if (changed || fading_) update_presence();
     pass_on(std::move(wishes));
 }
 
-void TileStore::take_in(std::vector<Arrival>& arrivals) {
+void TileStore::take_in(std::vector<TileReader::Arrival> arrivals) {
     std::size_t bytes = 0;
-    for (const Arrival& arrival : arrivals) {
-        for (const auto& tile : arrival.tiles) bytes += tile->tile.bytes();
+    for (const TileReader::Arrival& arrival : arrivals) {
+        for (const Tile& tile : arrival.tiles) bytes += tile.bytes();
     }
     if (resident_bytes_ + bytes > options_.memory_bytes) make_room(bytes);
     const auto now = Clock::now();
-    for (Arrival& arrival : arrivals) {
+    for (TileReader::Arrival& arrival : arrivals) {
         if (arrival.failure) {
             failed_.insert(arrival.asked.begin(), arrival.asked.end());
             if (!failure_) failure_ = std::move(arrival.failure);
         }
-        for (auto& tile : arrival.tiles) {
-            auto& place = slot(tile->tile.id());
-            if (place || resident_bytes_ + tile->tile.bytes() > options_.memory_bytes) continue;
-            resident_bytes_ += tile->tile.bytes();
-            tile->arrived = now;
-            tile->used_in_frame = last_drawn_;
-            residents_.push_back(tile.get());
-            place = std::move(tile);
+        for (Tile& tile : arrival.tiles) {
+            auto& place = slot(tile.id());
+            if (place || resident_bytes_ + tile.bytes() > options_.memory_bytes) continue;
+            resident_bytes_ += tile.bytes();
+            place = std::make_unique<Resident>(
+                Resident{.tile = std::move(tile), .arrived = now, .used_in_frame = last_drawn_});
+            residents_.push_back(place.get());
         }
     }
     std::stable_sort(residents_.begin(), residents_.end(), [](const Resident* a, const Resident* b) {
@@ -189,7 +170,7 @@ void TileStore::use(const Resident& tile) const {
         .store(frame_, std::memory_order_relaxed);
 }
 
-void TileStore::want(const TileId& id, double urgency, Need need) const {
+void TileStore::want(const TileId& id, double urgency, TileNeed need) const {
     if (!grid_.holds_data(id)) return;
     if (slot(id) == nullptr) {
         const std::lock_guard lock(wishes_mutex_);
@@ -202,33 +183,34 @@ void TileStore::want(const TileId& id, double urgency, Need need) const {
 }
 
 /// What the last frame missed, the most pressing last.
-std::vector<TileStore::Wish> TileStore::take_wishes() {
-    std::vector<Wish> wishes;
+std::vector<TileWish> TileStore::take_wishes() {
+    std::vector<TileWish> wishes;
     {
         const std::lock_guard lock(wishes_mutex_);
         wishes.swap(wishes_);
     }
-    std::erase_if(wishes, [&](const Wish& wish) { return slot(wish.id) || failed_.contains(wish.id); });
+    std::erase_if(wishes, [&](const TileWish& wish) { return slot(wish.id) || failed_.contains(wish.id); });
     // One wish a tile, the most pressing.
-    const auto presses_less = [](const Wish& a, const Wish& b) {
-        return a.need != b.need ? a.need == Need::soon : a.urgency < b.urgency;
+    const auto presses_less = [](const TileWish& a, const TileWish& b) {
+        return a.need != b.need ? a.need == TileNeed::soon : a.urgency < b.urgency;
     };
-    std::sort(wishes.begin(), wishes.end(),
-              [&](const Wish& a, const Wish& b) { return a.id != b.id ? a.id < b.id : presses_less(b, a); });
-    wishes.erase(
-        std::unique(wishes.begin(), wishes.end(), [](const Wish& a, const Wish& b) { return a.id == b.id; }),
-        wishes.end());
+    std::sort(wishes.begin(), wishes.end(), [&](const TileWish& a, const TileWish& b) {
+        return a.id != b.id ? a.id < b.id : presses_less(b, a);
+    });
+    wishes.erase(std::unique(wishes.begin(), wishes.end(),
+                             [](const TileWish& a, const TileWish& b) { return a.id == b.id; }),
+                 wishes.end());
     std::sort(wishes.begin(), wishes.end(), presses_less);
-    pending_ = static_cast<std::size_t>(
-        std::count_if(wishes.begin(), wishes.end(), [](const Wish& wish) { return wish.need == Need::now; }));
+    pending_ = static_cast<std::size_t>(std::count_if(
+        wishes.begin(), wishes.end(), [](const TileWish& wish) { return wish.need == TileNeed::now; }));
     return wishes;
 }
 
 /// Tells the readers what to read.
-void TileStore::pass_on(std::vector<Wish> wishes) {
-    std::erase_if(wishes, [&](const Wish& wish) { return slot(wish.id) || failed_.contains(wish.id); });
-    const auto needed =
-        std::count_if(wishes.begin(), wishes.end(), [](const Wish& wish) { return wish.need == Need::now; });
+void TileStore::pass_on(std::vector<TileWish> wishes) {
+    std::erase_if(wishes, [&](const TileWish& wish) { return slot(wish.id) || failed_.contains(wish.id); });
+    const auto needed = std::count_if(wishes.begin(), wishes.end(),
+                                      [](const TileWish& wish) { return wish.need == TileNeed::now; });
     // What would have to make room for itself only to be dropped again is not read.
     std::size_t in_use = 0;
     for (const Resident* tile : residents_) {
@@ -241,80 +223,8 @@ void TileStore::pass_on(std::vector<Wish> wishes) {
                    static_cast<double>(options_.memory_bytes);
     if (wishes.size() > room) wishes.erase(wishes.begin(), wishes.end() - static_cast<std::ptrdiff_t>(room));
 
-    const std::lock_guard lock(mutex_);
-    has_spare_room_ = resident_bytes_ + 64 * tile_bytes < options_.memory_bytes / 4 * 3;
-    std::erase_if(wishes, [&](const Wish& wish) { return under_way_.contains(wish.id); });
-    queue_ = std::move(wishes);
-    if (!queue_.empty()) work_.notify_all();
-}
-
-Result<std::vector<std::unique_ptr<TileStore::Resident>>> TileStore::read(
-    const PyramidBlock& block, const std::vector<TileId>& tiles) const {
-    const auto posts = pyramid_.read_vertices(block, metric_);
-    if (!posts) return posts.error();
-    std::vector<std::unique_ptr<Resident>> made;
-    made.reserve(tiles.size());
-    for (const TileId& id : tiles) {
-        made.push_back(std::make_unique<Resident>(
-            Resident{.tile = Tile(grid_, id, block, *posts, positions_, undulations_)}));
-    }
-    return made;
-}
-
-/// Reads the block of the most urgent tile, and with it all that are wanted of that block; with room to
-/// spare, all that lie in it. \pre the lock is held; it is while nothing is read
-bool TileStore::read_next(std::unique_lock<std::mutex>& lock) {
-    if (queue_.empty()) return false;
-    const PyramidBlock block = pyramid_block(grid_, queue_.back().id);
-    Arrival arrival;
-    std::erase_if(queue_, [&](const Wish& wish) {
-        if (pyramid_block(grid_, wish.id) != block) return false;
-        arrival.asked.push_back(wish.id);
-        return true;
-    });
-    std::vector<TileId> tiles = arrival.asked;
-    if (has_spare_room_) {
-        constexpr int across = Pyramid::kBlockCells / TileGrid::kCells;
-        tiles.clear();
-        for (int row = across * block.row; row < across * (block.row + 1); ++row) {
-            for (int column = across * block.column; column < across * (block.column + 1); ++column) {
-                if (const TileId id{block.level, column, row}; grid_.contains(id) && grid_.holds_data(id))
-                    tiles.push_back(id);
-            }
-        }
-    }
-    under_way_.insert(tiles.begin(), tiles.end());
-    ++read_blocks_;
-    lock.unlock();
-    if (options_.read_delay_s > 0)
-        std::this_thread::sleep_for(std::chrono::duration<double>(options_.read_delay_s));
-    auto made = read(block, tiles);
-    if (made) {
-        arrival.tiles = std::move(*made);
-    } else {
-        arrival.failure = made.error();
-    }
-    lock.lock();
-    for (const TileId& id : tiles) under_way_.erase(id);
-    arrivals_.push_back(std::move(arrival));
-    news_.notify_all();
-    return true;
-}
-
-void TileStore::run_reader(const std::stop_token& stop) {
-    stand_back();
-    std::unique_lock lock(mutex_);
-    while (!stop.stop_requested()) {
-        if (!read_next(lock)) work_.wait(lock, stop, [&] { return !queue_.empty(); });
-    }
-}
-
-bool TileStore::wait() {
-    std::unique_lock lock(mutex_);
-    if (options_.threads == 0) return read_next(lock);
-    if (arrivals_.empty() && queue_.empty() && under_way_.empty()) return false;
-    news_.wait(lock, [&] { return !arrivals_.empty(); });
-    return true;
+    const bool has_spare_room = resident_bytes_ + 64 * tile_bytes < options_.memory_bytes / 4 * 3;
+    reader_.ask(std::move(wishes), has_spare_room);
 }
 
 std::optional<Error> TileStore::failure() const {
@@ -322,8 +232,7 @@ std::optional<Error> TileStore::failure() const {
 }
 
 TileStore::Figures TileStore::figures() const {
-    const std::lock_guard lock(mutex_);
-    return {resident_bytes_, residents_.size(), pending_, memory_load_, read_blocks_};
+    return {resident_bytes_, residents_.size(), pending_, memory_load_, reader_.read_blocks()};
 }
 
 }  // namespace relevo::lod

@@ -3,18 +3,16 @@
 #include <array>
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
-#include <thread>
 #include <vector>
 
 #include "geo/result.hpp"
 #include "lod/tiles/tile.hpp"
+#include "lod/tiles/tile_reader.hpp"
 
 namespace relevo::lod {
 
@@ -64,7 +62,6 @@ class TileStore {
                                                    const geo::PostPositions& positions,
                                                    const UndulationGrid& undulations, ErrorMetric metric,
                                                    const TileStoreOptions& options);
-    ~TileStore();
     TileStore(const TileStore&) = delete;
     TileStore& operator=(const TileStore&) = delete;
 
@@ -91,21 +88,14 @@ class TileStore {
     /// A frame draws with this tile.
     void use(const Resident& tile) const;
 
-    /// For whom a tile is asked for.
-    enum class Need {
-        now,   ///< a frame would draw with it
-        soon,  ///< a frame may draw with it before long: read after all that is needed now, and where there
-               ///< is room
-    };
-
     /// A tile is not usable and should be. \param urgency  larger is sooner
-    void want(const TileId& id, double urgency, Need need = Need::now) const;
+    void want(const TileId& id, double urgency, TileNeed need = TileNeed::now) const;
 
     /// Are vertices still coming in?
     bool is_fading() const { return fading_; }
 
     /// Waits until a read is finished; false where none is under way. To be followed by start_frame().
-    bool wait();
+    bool wait() { return reader_.wait(); }
 
     /// The first read that failed. Its tiles stay away: the ground is drawn as coarse as their parents.
     std::optional<Error> failure() const;
@@ -114,17 +104,6 @@ class TileStore {
 
   private:
     using Clock = std::chrono::steady_clock;
-
-    struct Wish {
-        TileId id;
-        double urgency = 0;
-        Need need = Need::now;
-    };
-    struct Arrival {
-        std::vector<std::unique_ptr<Resident>> tiles;
-        std::vector<TileId> asked;
-        std::optional<Error> failure;
-    };
 
     TileStore(const Pyramid& pyramid, const geo::PostPositions& positions, const UndulationGrid& undulations,
               ErrorMetric metric, const TileStoreOptions& options);
@@ -144,21 +123,13 @@ class TileStore {
     /// Calls visit(TileId) for what a tile depends on.
     template <class Visit>
     void for_each_dependence(const TileId& id, Visit visit) const;
-    Result<std::vector<std::unique_ptr<Resident>>> read(const PyramidBlock& block,
-                                                        const std::vector<TileId>& tiles) const;
-    void run_reader(const std::stop_token& stop);
-    bool read_next(std::unique_lock<std::mutex>& lock);
-    void take_in(std::vector<Arrival>& arrivals);
+    void take_in(std::vector<TileReader::Arrival> arrivals);
     void update_presence();
     void keep_dependences();
     void make_room(std::size_t bytes);
-    std::vector<Wish> take_wishes();
-    void pass_on(std::vector<Wish> wishes);
+    std::vector<TileWish> take_wishes();
+    void pass_on(std::vector<TileWish> wishes);
 
-    const Pyramid& pyramid_;
-    const geo::PostPositions& positions_;
-    const UndulationGrid& undulations_;
-    const ErrorMetric metric_;
     const TileStoreOptions options_;
     const TileGrid grid_;
     std::array<Corner, 4> corners_{};
@@ -177,19 +148,10 @@ class TileStore {
     std::optional<Error> failure_;
 
     mutable std::mutex wishes_mutex_;
-    mutable std::vector<Wish> wishes_;  // of the frame under way
+    mutable std::vector<TileWish> wishes_;  // of the frame under way
     std::size_t pending_ = 0;
 
-    // What readers see.
-    mutable std::mutex mutex_;
-    std::condition_variable_any work_;
-    std::condition_variable_any news_;
-    std::vector<Wish> queue_;  // least urgent first
-    std::set<TileId> under_way_;
-    std::vector<Arrival> arrivals_;
-    std::uint64_t read_blocks_ = 0;
-    bool has_spare_room_ = true;
-    std::vector<std::jthread> readers_;
+    TileReader reader_;
 };
 
 }  // namespace relevo::lod
