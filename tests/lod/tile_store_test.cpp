@@ -246,6 +246,7 @@ TEST(TileStore, TooLittleMemoryForAViewIsSaid) {
     const auto whole = refiner.refine_whole(View(camera_over(terrain, 500, 600, 30)), {.tau_px = 0.25});
     ASSERT_FALSE(whole);
     EXPECT_NE(whole.error().message.find("--memory"), std::string::npos) << whole.error().message;
+    EXPECT_GT(terrain.tiles().figures().memory_load, 1);
 }
 
 // Was wrong: with a full memory, tiles of the last frame were let go between two of its looks, and a tile
@@ -261,6 +262,10 @@ TEST(TileStore, WholeMeansWholeInAMemoryThatIsFull) {
         ASSERT_TRUE(mesh) << mesh.error().message;
         EXPECT_EQ((*mesh)->triangles(),
                   (**expected.refine_whole(view, {.tau_px = 1, .morph = false})).triangles());
+        // Of the same tiles, by the same measure.
+        const double memory_ratio = 256.0 / 6;
+        EXPECT_NEAR(tight.tiles().figures().memory_load, memory_ratio * ample.tiles().figures().memory_load,
+                    0.02);
     }
 }
 

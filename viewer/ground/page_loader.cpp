@@ -63,7 +63,7 @@ std::optional<PageLoader::Loaded> PageLoader::wait() {
 }
 
 void PageLoader::work() {
-    stand_back();
+    lod::stand_back();
     std::unique_lock lock(mutex_);
     while (true) {
         // A page that is begun will be ready: it counts.
