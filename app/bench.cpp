@@ -128,8 +128,7 @@ Result<void> run(const BenchFlags& flags, const std::string& command) {
     }
     const auto scene = lod::Scene::open(flags.scene);
     if (!scene) return scene.error();
-    const auto heights = viewer::EyeHeight::create(scene->info().vertical.datum);
-    if (!heights) return heights.error();
+    const viewer::EyeHeight heights(scene->geoid());
     if (!flight) {
         lod::HeightSampler sampler(*scene);
         auto made = viewer::default_flight(sampler);
@@ -138,7 +137,7 @@ Result<void> run(const BenchFlags& flags, const std::string& command) {
     }
 
     const auto result =
-        viewer::run_bench(*scene, *heights, *flight, *options, progress_bar(flags.common, "flying"));
+        viewer::run_bench(*scene, heights, *flight, *options, progress_bar(flags.common, "flying"));
     if (!result) return result.error();
     const auto rows = viewer::summarize(*result);
     const viewer::BenchSubject subject{*scene,   *flight, flags.flight.value_or("made from the scene"),

@@ -115,9 +115,8 @@ Result<void> run(const RenderFlags& flags) {
     if (!scene) return scene.error();
     const auto terrain = lod::Terrain::open(*scene, view->metric, *tiles);
     if (!terrain) return terrain.error();
-    const auto heights = viewer::EyeHeight::create(scene->info().vertical.datum);
-    if (!heights) return heights.error();
-    place_view(*view, flags.view, *scene, *terrain, *heights, *size);
+    const viewer::EyeHeight heights(scene->geoid());
+    place_view(*view, flags.view, *scene, *terrain, heights, *size);
 
     const viewer::GroundData ground{.pyramid = terrain->pyramid().get(),
                                     .facts = viewer::ground_facts(scene->info()),
@@ -129,7 +128,7 @@ Result<void> run(const RenderFlags& flags) {
                                          .background = *background,
                                          .measure_error = flags.measure_error,
                                          .max_triangles = budget->triangles};
-    const auto finished = viewer::draw_picture(*terrain, ground, *heights, *view, request);
+    const auto finished = viewer::draw_picture(*terrain, ground, heights, *view, request);
     if (!finished) return finished.error();
     if (auto done = viewer::write_picture(finished->picture, flags.output, to_string(*view)); !done)
         return done;

@@ -97,9 +97,8 @@ Result<void> run(const WindowFlags& flags) {
     if (!scene) return scene.error();
     const auto terrain = lod::Terrain::open(*scene, view->metric, *tiles);
     if (!terrain) return terrain.error();
-    const auto heights = viewer::EyeHeight::create(scene->info().vertical.datum);
-    if (!heights) return heights.error();
-    if (!play) place_view(*view, flags.view, *scene, *terrain, *heights, *size);
+    const viewer::EyeHeight heights(scene->geoid());
+    if (!play) place_view(*view, flags.view, *scene, *terrain, heights, *size);
 
     const viewer::GroundData ground{
         .pyramid = terrain->pyramid().get(),
@@ -127,7 +126,7 @@ Result<void> run(const WindowFlags& flags) {
         std::signal(SIGINT, [](int) { interrupted = 1; });
         options.must_close = [] { return interrupted != 0; };
     }
-    const auto figures = viewer::fly(*scene, *terrain, ground, *heights, *view, options);
+    const auto figures = viewer::fly(*scene, *terrain, ground, heights, *view, options);
     if (!figures) return figures.error();
     if (flags.common.json) fmt::print("{}\n", to_json(*figures).dump(2));
     return {};

@@ -5,17 +5,11 @@
 
 namespace relevo::viewer {
 
-Result<EyeHeight> EyeHeight::create(lod::VerticalDatum datum) {
-    EyeHeight made;
-    if (datum == lod::VerticalDatum::ellipsoid) return made;
-    auto geoid = geo::Geoid::egm96();
-    if (!geoid) return geoid.error();
-    made.geoid_ = std::move(*geoid);
-    return made;
-}
-
 geo::Undulation EyeHeight::undulation(geo::LatLon place) const {
-    return geoid_ ? geoid_->undulation(place) : geo::Undulation{0};
+    if (!geoid_) return geo::Undulation{0};
+    if (geoid_->covers(place)) return geoid_->undulation(place);
+    if (!elsewhere_) elsewhere_.emplace(geo::Geoid::egm96());
+    return *elsewhere_ ? (*elsewhere_)->undulation(place) : geoid_->undulation(place);
 }
 
 std::optional<geo::EllipsoidalHeight> ground_height(const lod::Terrain& terrain, geo::LatLon place,

@@ -5,21 +5,24 @@
 #include "geo/geoid.hpp"
 #include "geo/position.hpp"
 #include "geo/result.hpp"
-#include "lod/scene/scene_info.hpp"
 #include "lod/terrain.hpp"
 
 namespace relevo::viewer {
 
-/// Turns heights above a scene's vertical datum into heights above the ellipsoid and back, anywhere on earth,
-/// also outside the scene. A datum whose geoid is not here is drawn above EGM96, as its scene is.
+/// Turns heights above a scene's vertical datum into heights above the ellipsoid and back, anywhere on earth:
+/// by the scene's geoid, and where that does not reach by EGM96, which is only loaded then; without that by a
+/// continuation of the scene's.
 class EyeHeight {
   public:
-    static Result<EyeHeight> create(lod::VerticalDatum datum);
+    /// \param geoid  the scene's, which outlives this; null where its heights are above the ellipsoid
+    explicit EyeHeight(const geo::Geoid* geoid) : geoid_(geoid) {}
 
+    /// Not to be called from two threads at once.
     geo::Undulation undulation(geo::LatLon place) const;
 
   private:
-    std::optional<geo::Geoid> geoid_;
+    const geo::Geoid* geoid_;
+    mutable std::optional<Result<geo::Geoid>> elsewhere_;
 };
 
 /// Height h of the drawn ground at a place: bilinear between the posts of the full data, whatever the mesh.

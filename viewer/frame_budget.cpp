@@ -22,8 +22,9 @@ constexpr double kDeadBand = 0.05;
 /// Frames that are forgotten by 1/e: what they cost, and how they scatter.
 constexpr double kMemory = 30;
 constexpr double kScatterMemory = 100;
-/// Standard deviations that are kept to the limit: one frame in 200 is beyond, of a normal distribution.
-constexpr double kDeviations = 2.6;
+/// Standard deviations that are kept to the limit. Of a normal distribution one frame in 700 would be beyond;
+/// frames' times have longer tails.
+constexpr double kDeviations = 3;
 /// One very slow frame says little about the others.
 constexpr double kMostScatter = 0.5;
 constexpr double kLeastAim = 0.5;

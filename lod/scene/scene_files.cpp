@@ -1,6 +1,7 @@
 #include "lod/scene/scene_files.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -41,12 +42,13 @@ nlohmann::json parse(const std::string& text) {
         return !too_deep;
     };
     nlohmann::json json = nlohmann::json::parse(text, keep, false);
-    return too_deep ? nlohmann::json(nlohmann::json::value_t::discarded) : json;
+    if (too_deep) return nlohmann::json::value_t::discarded;
+    return json;
 }
 
-/// Of everything but itself, in one form whatever the spaces and the order of keys in the file.
-std::string checksum(nlohmann::json json) {
-    json.erase(kChecksum);
+/// Of everything but itself, in one form whatever the spaces and the order of keys in the file. \pre the
+/// checksum is not in it
+std::string checksum(const nlohmann::json& json) {
     const std::string text = dump(json, -1);
     return sha256_hex(std::as_bytes(std::span(text)));
 }
@@ -73,13 +75,17 @@ std::string scene_text(const SceneInfo& info) {
 }
 
 Result<SceneInfo> scene_info_from_text(const std::string& text) {
-    const nlohmann::json json = parse(text);
+    nlohmann::json json = parse(text);
     if (json.is_discarded()) return Error{ErrorKind::damaged, "it is cut short or not JSON"};
     Result<SceneInfo> info = scene_info_from_json(json);
     // A newer format is named as such, whatever it does with checksums.
     if (!info && info.error().kind == ErrorKind::input) return info;
-    const auto stated = json.is_object() ? json.find(kChecksum) : json.end();
-    if (stated == json.end() || *stated != checksum(json)) {
+    nlohmann::json stated;
+    if (json.is_object() && json.contains(kChecksum)) {
+        stated = std::move(json[kChecksum]);
+        json.erase(kChecksum);
+    }
+    if (stated.is_null() || stated != checksum(json)) {
         return Error{ErrorKind::damaged, "its checksum is wrong: it was changed after it was written"};
     }
     return info;

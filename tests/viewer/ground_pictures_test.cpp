@@ -114,7 +114,7 @@ TEST(GroundPictures, ADamagedBlockInViewIsAnErrorAndNotAPicture) {
     const auto frame = geographic_frame(kColumns, kRows);
     const auto terrain = make_terrain(frame, make_heights(frame, mountains));
     const DamagedPyramid pyramid(*terrain.pyramid(), {0, 1, 1});
-    const auto heights = must(viewer::EyeHeight::create(lod::VerticalDatum::ellipsoid));
+    const viewer::EyeHeight heights(nullptr);
     viewer::GroundData ground = ground_of(terrain);
     ground.pyramid = &pyramid;
     viewer::ViewState view;
@@ -132,7 +132,7 @@ TEST(GroundPictures, ADamagedBlockInViewIsAnErrorAndNotAPicture) {
 TEST(GroundPictures, ASmallCacheDrawsTheSamePicture) {
     const auto frame = geographic_frame(kColumns, kRows);
     const auto terrain = make_terrain(frame, make_heights(frame, mountains));
-    const auto heights = must(viewer::EyeHeight::create(lod::VerticalDatum::ellipsoid));
+    const viewer::EyeHeight heights(nullptr);
     viewer::GroundData ground = ground_of(terrain);
     viewer::ViewState view;
     view.pitch.value = -90;
