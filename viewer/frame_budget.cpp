@@ -21,10 +21,10 @@ constexpr double kBeginningPx = 8;
 constexpr double kDeadBand = 0.05;
 /// Frames that are forgotten by 1/e: what they cost, and how they scatter.
 constexpr double kMemory = 30;
-constexpr double kScatterMemory = 100;
-/// Standard deviations that are kept to the limit. Of a normal distribution one frame in 700 would be beyond;
+constexpr double kScatterMemory = 60;
+/// Standard deviations that are kept to the limit. Of a normal distribution one frame in 400 would be beyond;
 /// frames' times have longer tails.
-constexpr double kDeviations = 3;
+constexpr double kDeviations = 2.8;
 /// One very slow frame says little about the others.
 constexpr double kMostScatter = 0.5;
 constexpr double kLeastAim = 0.5;
