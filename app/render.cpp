@@ -64,8 +64,13 @@ nlohmann::json to_json(const viewer::ViewState& view, const viewer::PictureReque
                         {"uncovered_posts", nullptr},
                         {"resident_mib", viewer::resident_mib()},
                         {"ocean", nullptr},
+                        {"ocean_vertices", figures.ocean.vertices},
+                        {"ocean_triangles", figures.ocean.triangles},
+                        {"ocean_draw_calls", figures.ocean.draw_calls},
+                        {"ocean_ms", figures.ocean.arrange_ms + figures.ocean.draw_ms},
                         {"gl_renderer", figures.gl},
                         {"at", to_string(view)}};
+    if (figures.ocean.kind != viewer::OceanKind::off) json["ocean"] = to_string(figures.ocean.kind);
     if (view.method == viewer::Method::full) json["tau_px"] = json["tau_reached_px"] = nullptr;
     if (figures.error) {
         json["max_error_px"] = figures.error->max_px;
@@ -120,7 +125,8 @@ Result<void> run(const RenderFlags& flags) {
 
     const viewer::GroundData ground{.pyramid = terrain->pyramid().get(),
                                     .facts = viewer::ground_facts(scene->info()),
-                                    .cache_bytes = texel_bytes(flags.view)};
+                                    .cache_bytes = texel_bytes(flags.view),
+                                    .heights = &heights};
 
     const viewer::PictureRequest request{.width = size->width,
                                          .height = size->height,

@@ -104,6 +104,7 @@ Result<void> run(const WindowFlags& flags) {
         .pyramid = terrain->pyramid().get(),
         .facts = viewer::ground_facts(scene->info()),
         .cache_bytes = texel_bytes(flags.view),
+        .heights = &heights,
         .report = [](const std::string& line) { fmt::print(stderr, "relevo view: {}\n", line); }};
 
     viewer::FlightOptions options{.width = size->width,

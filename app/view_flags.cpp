@@ -60,6 +60,9 @@ void add_picture_flags(CLI::App& command, ViewFlags& flags) {
     add("--exaggeration", flags.exaggeration, "X", "Of heights, in the picture only [1]");
     add("--layer", flags.layer, "hypsometric|hillshade|slope|lod", "What colours the ground [hypsometric]");
     add("--sun", flags.sun, "auto|AZ,EL|TIME", "Where the light comes from; TIME is ISO 8601 [auto: 315,45]");
+    add("--ocean", flags.ocean, "auto|geoclipmap|radial|projected|off", "The sea's mesh [auto]");
+    add("--wind", flags.wind, "SPEED,FROM", "What raises the waves, m/s and degrees; 0: a flat sea [6,300]");
+    add("--time", flags.time, "SECONDS", "Of the waves [0]");
     add("--samples", flags.samples, "1|4|8", "Samples a pixel, for smooth edges");
     command.add_option("--memory", flags.memory, "Most memory for terrain and textures, e.g. 512MiB [1GiB]")
         ->transform(CLI::AsSizeValue(false))
@@ -132,8 +135,11 @@ Result<viewer::ViewState> read_view(const ViewFlags& flags, const viewer::ViewSt
     if (done && flags.morph) done = keep("--morph", viewer::parse_switch(*flags.morph), view.morph);
     if (done && flags.layer) done = keep("--layer", viewer::parse_layer(*flags.layer), view.layer);
     if (done && flags.sun) done = keep("--sun", viewer::parse_sun(*flags.sun), view.sun);
+    if (done && flags.ocean) done = keep("--ocean", viewer::parse_ocean(*flags.ocean), view.ocean.kind);
+    if (done && flags.wind) done = keep("--wind", viewer::parse_wind(*flags.wind), view.ocean.wind);
     if (!done) return done.error();
     turn(view, flags);
+    if (flags.time) view.ocean.time_s = *flags.time;
     if (flags.fov) view.fov.value = *flags.fov;
     if (flags.tau) view.tau_px = *flags.tau;
     if (flags.exaggeration) view.exaggeration = *flags.exaggeration;

@@ -22,8 +22,8 @@ struct PictureSize {
 
 /// The flags that say what is seen: shared by the commands that draw.
 struct ViewFlags {
-    std::optional<std::string> at, eye, size, method, metric, morph, layer, sun;
-    std::optional<double> heading, pitch, roll, fov, tau, exaggeration;
+    std::optional<std::string> at, eye, size, method, metric, morph, layer, sun, ocean, wind;
+    std::optional<double> heading, pitch, roll, fov, tau, exaggeration, time;
     bool wireframe = false;
     std::optional<int> samples;
     std::uint64_t memory = std::uint64_t{1} << 30;

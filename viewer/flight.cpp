@@ -56,7 +56,7 @@ class Flight {
 
     Result<FlightFigures> run() {
         while (!window_.should_close()) {
-            const bool idle = ground_rests() && !playing_ && !controls_.moving(window_) &&
+            const bool idle = ground_rests() && !waves_move() && !playing_ && !controls_.moving(window_) &&
                               options_.frames == 0 && still_frames_ > kSettlingFrames && budget_rests();
             const Input& input = window_.poll(idle ? 0.5 : 0);
             still_frames_ = input.anything ? 0 : still_frames_ + 1;
@@ -104,6 +104,10 @@ class Flight {
         return ms_since(last_pending_) > kFadingMs;
     }
 
+    bool waves_move() const {
+        return figures_.ocean.kind != OceanKind::off && view_.ocean.wind.speed_m_s > 0;
+    }
+
     bool message_expired() {
         if (message_.empty() || ms_since(message_since_) < kMessageMs) return false;
         message_.clear();
@@ -147,6 +151,7 @@ class Flight {
             target_.emplace(std::move(*made));
         }
         move(input, dt, width, height);
+        if (waves_move()) view_.ocean.time_s += dt;
         if (auto done = read_ground(view_in(width, height), input); !done) return done;
         // After the ground is read: what a key copies is what the cursor, moved in the same moment, is at.
         bool screenshot = false;
@@ -227,15 +232,10 @@ class Flight {
         refine_times_.add(ms_since(start));
         figures_.triangles = mesh.triangles();
         renderer_.upload(mesh);
-        const auto drawn = renderer_.draw(view,
-                                          {.layer = view_.layer,
-                                           .wireframe = view_.wireframe,
-                                           .exaggeration = view_.exaggeration,
-                                           .sun = view_.sun,
-                                           .background = {}},
-                                          *target_);
+        const auto drawn = renderer_.draw(view, draw_settings(view_), *target_);
         if (!drawn) return drawn.error();
         figures_.draw_calls = drawn->draw_calls;
+        figures_.ocean = drawn->ocean;
         target_->show();
         return {};
     }

@@ -13,6 +13,7 @@
 #include "viewer/flight_path.hpp"
 #include "viewer/frame_budget.hpp"
 #include "viewer/ground/ground_data.hpp"
+#include "viewer/ocean/ocean.hpp"
 #include "viewer/view_state.hpp"
 
 namespace relevo::viewer {
@@ -42,6 +43,7 @@ struct FlightFigures {
     double refine_ms_median = 0;
     std::uint64_t triangles = 0;  ///< of the last frame
     int draw_calls = 0;           ///< of the last frame, without the read-out's
+    OceanFigures ocean;           ///< of the last frame
     int width = 0;
     int height = 0;
     int samples = 1;

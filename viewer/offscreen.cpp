@@ -80,11 +80,8 @@ Result<FinishedPicture> draw_picture(const lod::Terrain& terrain, const GroundDa
     if (!renderer) return renderer.error();
     ViewState state = asked;
     const lod::View view(camera_of(state, heights, request.width, request.height));
-    const DrawSettings settings{.layer = state.layer,
-                                .wireframe = state.wireframe,
-                                .exaggeration = state.exaggeration,
-                                .sun = state.sun,
-                                .background = request.background};
+    DrawSettings settings = draw_settings(state);
+    settings.background = request.background;
     const int side = tile_side(*renderer, view, settings, request);
     const auto target =
         RenderTarget::create(std::min(request.width, side), std::min(request.height, side), request.samples);
@@ -131,6 +128,7 @@ Result<FinishedPicture> draw_picture(const lod::Terrain& terrain, const GroundDa
             const auto drawn = renderer->draw(view, settings, *target, {x, y}, true);
             if (!drawn) return drawn.error();
             figures.draw_calls += drawn->draw_calls;
+            figures.ocean.add(drawn->ocean);
             terrain_seen = terrain_seen || drawn->terrain_seen;
             target->read_into(made.picture, x, y);
         }

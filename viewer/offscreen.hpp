@@ -10,6 +10,7 @@
 #include "lod/terrain.hpp"
 #include "viewer/eye_height.hpp"
 #include "viewer/ground/ground_data.hpp"
+#include "viewer/ocean/ocean.hpp"
 #include "viewer/picture.hpp"
 #include "viewer/view_state.hpp"
 
@@ -34,6 +35,7 @@ struct PictureFigures {
     double frame_ms =
         0;  ///< refinement, upload and drawing to the last pixel, programs compiled, ground loaded
     std::optional<lod::MeasuredError> error;  ///< only where asked for and something is in view
+    OceanFigures ocean;                       ///< of all parts that the picture was drawn in
     std::string gl;                           ///< what drew
 };
 

@@ -1,6 +1,7 @@
 #include "viewer/renderer.hpp"
 
 #include <cassert>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 
@@ -29,10 +30,15 @@ void stream(const GlBuffer& buffer, std::size_t& capacity, const void* data, std
 
 }  // namespace
 
+Renderer::Renderer(const lod::Terrain& terrain, GroundTextures ground, const EyeHeight* heights)
+    : terrain_(&terrain),
+      ground_(std::make_unique<GroundTextures>(std::move(ground))),
+      ocean_(std::make_unique<Ocean>(terrain, *ground_, heights)) {}
+
 Result<Renderer> Renderer::create(const lod::Terrain& terrain, const GroundData& data) {
     auto ground = GroundTextures::create(terrain, data);
     if (!ground) return ground.error();
-    Renderer made(terrain, *std::move(ground));
+    Renderer made(terrain, *std::move(ground), data.heights);
     if (auto done = made.make_ramps(); !done) return done.error();
 
     auto sky = build_program({.name = "sky",
@@ -58,7 +64,7 @@ Result<Renderer> Renderer::create(const lod::Terrain& terrain, const GroundData&
 Result<void> Renderer::make_ramps() {
     const std::array<Layer, 2> layers{Layer::hypsometric, Layer::slope};
     for (std::size_t i = 0; i < layers.size(); ++i) {
-        const GroundFacts& facts = ground_.facts();
+        const GroundFacts& facts = ground_->facts();
         const HeightSpan span{facts.lowest_m, facts.highest_m, facts.lowest_land_m};
         const auto colours = colour_ramp(layers[i], span);
         const auto sea = sea_ramp(span);
@@ -97,16 +103,22 @@ Result<GlName> Renderer::terrain_program(const Variant& variant) {
         return known->second.name();
     }
     std::string defines = fmt::format("#define LAYER {}\n#define TOP_LEVEL {}\n",
-                                      static_cast<int>(variant.layer), ground_.top());
+                                      static_cast<int>(variant.layer), ground_->top());
     if (variant.wireframe) defines += "#define WIREFRAME\n";
     if (variant.sun_fixed) defines += "#define SUN_FIXED\n";
     if (variant.sky) defines += "#define SKY\n";
-    if (ground_.facts().has_voids) defines += "#define VOIDS\n";
+    if (variant.probe) defines += "#define PROBE\n";
+    if (ground_->facts().has_voids) defines += "#define VOIDS\n";
     if (const auto* polar = terrain_->positions().polar())
         defines += fmt::format("#define POLE {:.1f}\n", polar->plane().pole);
-    if (ground_.facts().has_sea) defines += "#define SEA\n";
-    const std::string fragment =
-        std::string(shader_text("ground.glsl")) + std::string(shader_text("terrain.frag"));
+    if (variant.ocean) {
+        defines += "#define OCEAN\n" + shore_defines(ground_->facts());
+    } else if (ground_->facts().has_sea && variant.layer == Layer::hypsometric) {
+        defines += "#define TINTED_SEA\n";
+    }
+    const std::string fragment = std::string(shader_text("ground.glsl")) +
+                                 std::string(variant.ocean ? shader_text("shore.glsl") : std::string_view{}) +
+                                 std::string(shader_text("terrain.frag"));
     auto program =
         build_program({.name = "terrain",
                        .defines = std::move(defines),
@@ -126,46 +138,91 @@ void Renderer::upload(const lod::Mesh& mesh) {
 
 Result<void> Renderer::complete(const lod::View& view, const DrawSettings& settings,
                                 const PicturePart& part) {
-    if (auto done = ground_.complete(Sight(view, part), settings.exaggeration); !done) return done;
+    if (auto done = ground_->complete(Sight(view, part), settings.exaggeration); !done) return done;
     return gl_check("loading the terrain's normals");
+}
+
+Renderer::Variant Renderer::variant(const DrawSettings& settings) const {
+    return {.layer = settings.layer,
+            .wireframe = settings.wireframe,
+            .sun_fixed = settings.sun.kind == SunSetting::Kind::time,
+            .sky = !settings.background,
+            .ocean = settings.ocean.kind != OceanKind::off && ground_->facts().has_sea,
+            .probe = false};
+}
+
+void Renderer::prepare(const lod::View& view, const DrawSettings& settings, const PicturePart& part) {
+    const FrameBlock block = frame_block(view, *terrain_, {part.x, part.y, part.width, part.height},
+                                         settings.sun, settings.exaggeration, base_undulation_m_);
+    glNamedBufferSubData(frame_.name(), 0, sizeof(block), &block);
+    glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, frame_.name());
+    ground_->update(Sight(view, part), settings.exaggeration);
+    glDisable(GL_BLEND);
+    glDisable(GL_CULL_FACE);  // the ground is also seen from below
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+}
+
+void Renderer::draw_terrain(GlName program, Layer layer) {
+    glUseProgram(program);
+    glBindVertexArray(vertex_array_.name());
+    ground_->bind();
+    glBindTextureUnit(kRampUnit, ramps_[layer == Layer::slope ? 1 : 0].name());
+    glEnable(GL_CLIP_DISTANCE0);
+    glEnable(GL_CLIP_DISTANCE1);
+    glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
+    glDisable(GL_CLIP_DISTANCE0);
+    glDisable(GL_CLIP_DISTANCE1);
+}
+
+Result<DrawFigures> Renderer::probe(const lod::View& view, const DrawSettings& settings) {
+    DrawFigures figures;
+    Variant probing = variant(settings);
+    probing.wireframe = false;  // covers what the plain ground covers
+    probing.probe = true;
+    const auto program = terrain_program(probing);
+    if (!program) return program.error();
+    prepare(view, settings, {0, 0, view.camera().width, view.camera().height});
+    const auto ocean = ocean_->draw(view, settings.ocean, {.sun = settings.sun, .sky = false, .probe = true});
+    if (!ocean) return ocean.error();
+    figures.ocean = *ocean;
+    figures.draw_calls = ocean->draw_calls;
+    if (index_count_ > 0) {
+        draw_terrain(*program, settings.layer);
+        ++figures.draw_calls;
+    }
+    glBindVertexArray(0);
+    glUseProgram(0);
+    if (auto done = gl_check("probing the sea"); !done) return done.error();
+    return figures;
 }
 
 Result<DrawFigures> Renderer::draw(const lod::View& view, const DrawSettings& settings,
                                    const RenderTarget& target, Region region, bool count_terrain) {
     DrawFigures figures;
     const bool sky = !settings.background;
-    const auto program = terrain_program({.layer = settings.layer,
-                                          .wireframe = settings.wireframe,
-                                          .sun_fixed = settings.sun.kind == SunSetting::Kind::time,
-                                          .sky = sky});
+    const auto program = terrain_program(variant(settings));
     if (!program) return program.error();
-
-    const FrameBlock block =
-        frame_block(view, *terrain_, {region.x, region.y, target.width(), target.height()}, settings.sun,
-                    settings.exaggeration, base_undulation_m_);
-    glNamedBufferSubData(frame_.name(), 0, sizeof(block), &block);
-    glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, frame_.name());
-    ground_.update(Sight(view, {region.x, region.y, target.width(), target.height()}), settings.exaggeration);
+    prepare(view, settings, {region.x, region.y, target.width(), target.height()});
 
     const auto colour = settings.background.value_or(std::array<float, 3>{0, 0, 0});
     target.begin(colour[0], colour[1], colour[2]);
-    glDisable(GL_BLEND);
-    glDisable(GL_CULL_FACE);  // the ground is also seen from below
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_GREATER);
-
+    // Before the ground: what lies under water is hidden by it, and need not be shaded.
+    if (count_terrain) gl_finish();
+    const auto start = std::chrono::steady_clock::now();
+    const auto ocean = ocean_->draw(view, settings.ocean, {.sun = settings.sun, .sky = sky});
+    if (!ocean) return ocean.error();
+    figures.ocean = *ocean;
+    if (count_terrain && ocean->draw_calls > 0) {
+        gl_finish();
+        const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+        figures.ocean.draw_ms = took.count() - ocean->arrange_ms;
+    }
+    figures.draw_calls += ocean->draw_calls;
     if (index_count_ > 0) {
-        glUseProgram(*program);
-        glBindVertexArray(vertex_array_.name());
-        ground_.bind();
-        glBindTextureUnit(kRampUnit, ramps_[settings.layer == Layer::slope ? 1 : 0].name());
-        glEnable(GL_CLIP_DISTANCE0);
-        glEnable(GL_CLIP_DISTANCE1);
         if (count_terrain) glBeginQuery(GL_ANY_SAMPLES_PASSED, seen_.name());
-        glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
+        draw_terrain(*program, settings.layer);
         if (count_terrain) glEndQuery(GL_ANY_SAMPLES_PASSED);
-        glDisable(GL_CLIP_DISTANCE0);
-        glDisable(GL_CLIP_DISTANCE1);
         ++figures.draw_calls;
     }
     if (sky) {

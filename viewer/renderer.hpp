@@ -10,23 +10,14 @@
 #include "lod/mesh.hpp"
 #include "lod/terrain.hpp"
 #include "lod/view.hpp"
+#include "viewer/draw_settings.hpp"
 #include "viewer/gl_object.hpp"
 #include "viewer/ground/ground_textures.hpp"
 #include "viewer/layer.hpp"
+#include "viewer/ocean/ocean.hpp"
 #include "viewer/render_target.hpp"
-#include "viewer/sun_setting.hpp"
 
 namespace relevo::viewer {
-
-/// How the ground is drawn.
-struct DrawSettings {
-    Layer layer = Layer::hypsometric;
-    bool wireframe = false;
-    double exaggeration = 1;
-    SunSetting sun = {};
-    /// A flat colour, 0 to 1, instead of sky, horizon and haze.
-    std::optional<std::array<float, 3>> background = {};
-};
 
 /// The part of a view's picture that a target shows: pixels from the upper left corner.
 struct Region {
@@ -38,6 +29,7 @@ struct DrawFigures {
     int draw_calls = 0;
     /// Did any sample of the ground pass? Asked for only where `draw` is told to count.
     bool terrain_seen = false;
+    OceanFigures ocean;
 };
 
 /// Draws one terrain. The same code for a window and off-screen; a context that prepare_gl has seen must be
@@ -57,11 +49,11 @@ class Renderer {
 
     /// Pieces of the ground that the last picture wanted and that have not come yet: it was drawn with
     /// coarser ones in their places.
-    std::size_t pending() const { return ground_.pending(); }
+    std::size_t pending() const { return ground_->pending(); }
 
     /// Is there room for all of the ground's texels that a picture's part wants? Else it is drawn coarser.
     bool ground_fits(const lod::View& view, const DrawSettings& settings, const PicturePart& part) const {
-        return ground_.fits(Sight(view, part), settings.exaggeration);
+        return ground_->fits(Sight(view, part), settings.exaggeration);
     }
 
     /// Draws the uploaded mesh, which must have been made for this view, and sky. The ground's texels that
@@ -73,22 +65,33 @@ class Renderer {
         return draw(view, settings, target, {}, false);
     }
 
+    /// Draws, into what is current, what measures the sea instead of showing it (ocean/ocean_probe.hpp): (0,
+    /// 0, 0, 1) where there is ground, Ocean::Look::probe where there is sea, no sky.
+    Result<DrawFigures> probe(const lod::View& view, const DrawSettings& settings);
+
+    Ocean& ocean() { return *ocean_; }
+    const Ocean& ocean() const { return *ocean_; }
+
   private:
-    Renderer(const lod::Terrain& terrain, GroundTextures ground)
-        : terrain_(&terrain), ground_(std::move(ground)) {}
+    Renderer(const lod::Terrain& terrain, GroundTextures ground, const EyeHeight* heights);
 
     /// What makes one terrain program differ from another.
     struct Variant {
         Layer layer;
-        bool wireframe, sun_fixed, sky;
+        bool wireframe, sun_fixed, sky, ocean, probe;
         friend auto operator<=>(const Variant&, const Variant&) = default;
     };
+    Variant variant(const DrawSettings& settings) const;
+    /// Sets what all of a part of a picture needs, and has its ground's texels come.
+    void prepare(const lod::View& view, const DrawSettings& settings, const PicturePart& part);
+    void draw_terrain(GlName program, Layer layer);
     Result<GlName> terrain_program(const Variant& variant);
     Result<void> make_ramps();
     void make_vertex_array();
 
     const lod::Terrain* terrain_;
-    GroundTextures ground_;
+    std::unique_ptr<GroundTextures> ground_;  // the ocean keeps a pointer to it
+    std::unique_ptr<Ocean> ocean_;
     std::array<GlTexture, 2> ramps_;  // hypsometric, slope
     std::map<Variant, GlProgram> terrain_programs_;
     GlProgram sky_program_;

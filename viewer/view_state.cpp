@@ -46,6 +46,9 @@ Result<void> set(ViewState& view, std::string_view key, std::string_view value) 
     if (key == "layer") return keep(parse_layer(value), view.layer);
     if (key == "wireframe") return keep(parse_switch(value), view.wireframe);
     if (key == "sun") return keep(parse_sun(value), view.sun);
+    if (key == "ocean") return keep(parse_ocean(value), view.ocean.kind);
+    if (key == "wind") return keep(parse_wind(value), view.ocean.wind);
+    if (key == "time") return keep_number(value, view.ocean.time_s);
     return usage(fmt::format("\"{}\" is nothing that a view has", key));
 }
 
@@ -92,7 +95,8 @@ Result<void> check(const ViewState& view) {
                             {"roll", view.roll.value, -3600, 3600, false},
                             {"fov", view.fov.value, 0, 180, true},
                             {"tau", view.tau_px, 0, 1e6, true},
-                            {"exaggeration", view.exaggeration, 0, 1000, false}};
+                            {"exaggeration", view.exaggeration, 0, 1000, false},
+                            {"time", view.ocean.time_s, -1e9, 1e9, false}};
     for (const Range& range : ranges) {
         const bool inside = range.open ? range.value > range.least && range.value < range.most
                                        : range.value >= range.least && range.value <= range.most;
@@ -109,11 +113,12 @@ std::string to_string(const ViewState& view) {
     // "{}" prints the shortest digits that read back as the same double.
     return fmt::format(
         "{},{},{}/heading={}/pitch={}/roll={}/fov={}/tau={}/lod={}/metric={}/morph={}/layer={}/wireframe={}/"
-        "exaggeration={}/sun={}",
+        "exaggeration={}/sun={}/ocean={}/wind={},{}/time={}",
         view.place.lat.value, view.place.lon.value, view.H.m, view.heading.value, view.pitch.value,
         view.roll.value, view.fov.value, view.tau_px, to_string(view.method), metric_name(view.metric),
         view.morph ? "on" : "off", to_string(view.layer), view.wireframe ? "on" : "off", view.exaggeration,
-        view.sun.text);
+        view.sun.text, to_string(view.ocean.kind), view.ocean.wind.speed_m_s, view.ocean.wind.from.value,
+        view.ocean.time_s);
 }
 
 Result<ViewState> parse_view_state(std::string_view text, const ViewState& base) {

@@ -7,6 +7,7 @@
 #include "geo/result.hpp"
 #include "lod/terrain.hpp"
 #include "viewer/layer.hpp"
+#include "viewer/ocean/ocean_settings.hpp"
 #include "viewer/sun_setting.hpp"
 
 namespace relevo::viewer {
@@ -42,6 +43,7 @@ struct ViewState {
     Layer layer = Layer::hypsometric;
     bool wireframe = false;
     SunSetting sun;
+    OceanSettings ocean;  ///< its error is tau_px
 };
 
 /// Fails with ErrorKind::usage where a value is out of its range.

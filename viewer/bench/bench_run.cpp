@@ -108,11 +108,7 @@ class MethodRun {
         const auto upload = Clock::now();
         renderer_.upload(*made.mesh);
         frame.upload_ms = ms_since(upload);
-        const DrawSettings settings{.layer = state.layer,
-                                    .wireframe = state.wireframe,
-                                    .exaggeration = state.exaggeration,
-                                    .sun = state.sun,
-                                    .background = {}};
+        const DrawSettings settings = draw_settings(state);
         const PicturePart all{0, 0, options_.width, options_.height};
         if (mesher_.waits()) {
             if (auto there = renderer_.complete(view, settings, all); !there) return there.error();
@@ -200,7 +196,8 @@ Result<BenchResult> run_bench(const lod::Scene& scene, const EyeHeight& heights,
                 const lod::Terrain& terrain = (*mesher)->terrain();
                 auto renderer = Renderer::create(terrain, {.pyramid = terrain.pyramid().get(),
                                                            .facts = ground_facts(scene.info()),
-                                                           .cache_bytes = options.ground_bytes});
+                                                           .cache_bytes = options.ground_bytes,
+                                                           .heights = &heights});
                 if (!renderer) return renderer.error();
                 malloc_trim(0);
                 MethodRun flown(scene, heights, flight, options, run, **mesher, *renderer, *target);

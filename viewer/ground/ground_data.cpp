@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "viewer/ground/page.hpp"
 
 namespace relevo::viewer {
@@ -16,7 +18,15 @@ GroundFacts ground_facts(const lod::SceneInfo& info) {
                                  ? std::clamp(info.sea.lowest_land_m, info.height_min_m, info.height_max_m)
                                  : info.height_min_m,
             .has_voids = info.void_posts > 0,
-            .has_sea = has_sea};
+            .has_sea = has_sea,
+            .sea_is_level = has_sea && (info.sea.rule == lod::SeaInfo::Rule::level_zero ||
+                                        info.sea.rule == lod::SeaInfo::Rule::mask)};
+}
+
+std::string shore_defines(const GroundFacts& facts) {
+    return fmt::format("#define SCENE_MIDDLE {:.6f}\n#define SCENE_HALF {:.6f}\n",
+                       0.5 * (facts.highest_m + facts.lowest_m),
+                       std::max(0.5 * (facts.highest_m - facts.lowest_m), 1e-6));
 }
 
 Result<GroundFacts> ground_facts(const lod::Pyramid& pyramid) {

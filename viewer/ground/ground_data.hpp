@@ -7,6 +7,7 @@
 #include "geo/result.hpp"
 #include "lod/pyramid/pyramid.hpp"
 #include "lod/scene/scene_info.hpp"
+#include "viewer/eye_height.hpp"
 
 namespace relevo::viewer {
 
@@ -17,7 +18,11 @@ struct GroundFacts {
     double lowest_land_m = 0;  ///< of what is not sea; at most highest_m
     bool has_voids = false;
     bool has_sea = false;
+    bool sea_is_level = false;  ///< the data has no bed under its sea, but heights of 0
 };
+
+/// Definitions of shaders/shore.glsl.
+std::string shore_defines(const GroundFacts& facts);
 
 /// Of a scene, from what its scene.json says. Of its land next to sea it says the lowest only where that is
 /// below 0: else 0 is taken.
@@ -31,6 +36,9 @@ struct GroundData {
     const lod::Pyramid* pyramid = nullptr;  ///< must outlive what draws
     GroundFacts facts = {};
     std::size_t cache_bytes = std::size_t{192} << 20;  ///< of textures; a few pages at least
+    /// N anywhere on earth, for the sea's level, which is at the ellipsoid without it. Must outlive what
+    /// draws.
+    const EyeHeight* heights = nullptr;
     /// Called once for each block that cannot be read, on the thread that draws.
     std::function<void(const std::string&)> report = [](const std::string&) {};
 };

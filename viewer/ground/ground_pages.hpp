@@ -51,6 +51,11 @@ class GroundPages {
     /// What is drawn from where: of pages that are wanted and there. So a picture depends on its view and on
     /// what is still missing, but not on what was seen before.
     const PageTable& table() const { return table_; }
+    const std::vector<PageTable::Resident>& shown() const { return shown_; }
+    /// Is any post of the page in a slot sea?
+    bool has_sea(int slot) const { return has_sea_[static_cast<std::size_t>(slot)]; }
+    /// Is any post of it not?
+    bool has_land(int slot) const { return has_land_[static_cast<std::size_t>(slot)]; }
     /// Has the table changed since this was last asked?
     bool table_changed() { return std::exchange(table_changed_, false); }
 
@@ -67,6 +72,7 @@ class GroundPages {
     PageBounds bounds_;
     Fill fill_;
     PageSlots slots_;
+    std::vector<bool> has_sea_, has_land_;  // by slot
     PageTable table_;
     bool table_changed_ = true;
     std::vector<PageTable::Resident> shown_;

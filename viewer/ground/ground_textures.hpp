@@ -19,6 +19,7 @@ class GroundTextures {
 
     const GroundFacts& facts() const { return facts_; }
     int top() const { return pages_->table().top(); }
+    const GroundPages& pages() const { return *pages_; }
 
     /// Has what a picture needs loaded in the background, and hands over what has come: for about 2 ms.
     void update(const Sight& sight, double exaggeration);

@@ -31,9 +31,9 @@ uint page_entry(ivec2 cell, float level) {
 
 ivec2 cell_at(vec2 grid) { return clamp(ivec2(grid), ivec2(0), ivec2(frame.grid.zw)); }
 
-PagePlace page_place(vec2 grid, ivec2 cell) {
-    vec2 steps = max(abs(dFdx(grid)), abs(dFdy(grid)));
-    float wanted = rough_log2(max(steps.x, steps.y)) + kSharper;
+// `apart`: how far the places are from each other, in posts, that are asked for.
+PagePlace page_place(vec2 grid, ivec2 cell, float apart) {
+    float wanted = rough_log2(apart) + kSharper;
     uint entry = page_entry(cell, wanted);
     uint level = entry >> 24;
     vec2 at = grid * uintBitsToFloat((127u - level) << 23) - vec2((cell >> level) & ~255);
@@ -47,12 +47,4 @@ PagePlace page_place(vec2 grid, ivec2 cell) {
 
 vec4 at_place(sampler2DArray pages, PagePlace place) {
     return mix(textureLod(pages, place.fine, 0.0), textureLod(pages, place.coarse, 0.0), place.blend);
-}
-
-// May the cell be drawn? Edges of voids are to the pixel in both directions: the level is that of the gentlest.
-bool is_whole(vec2 grid, ivec2 cell) {
-    vec2 x = abs(dFdx(grid));
-    vec2 y = abs(dFdy(grid));
-    uint entry = page_entry(cell, rough_log2(min(max(x.x, x.y), max(y.x, y.y))) + kSharper);
-    return texelFetch(cells, ivec3((cell >> (entry >> 24)) & 255, entry & 4095u), 0).r != 0u;
 }

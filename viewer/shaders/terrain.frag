@@ -50,19 +50,30 @@ float on_edge(vec3 barycentric) {
 }
 #endif
 
+// May the cell be drawn? Edges of voids are to the pixel in both directions: the level is that of the gentlest.
+bool is_whole(ivec2 cell, float apart) {
+    uint entry = page_entry(cell, rough_log2(apart) + kSharper);
+    return texelFetch(cells, ivec3((cell >> (entry >> 24)) & 255, entry & 4095u), 0).r != 0u;
+}
+
 void main() {
     // All that needs the neighbours' values comes before the discard.
+    vec2 x = abs(dFdx(surface.grid));
+    vec2 y = abs(dFdy(surface.grid));
     ivec2 cell = cell_at(surface.grid);
-    PagePlace place = page_place(surface.grid, cell);
-#if LAYER == 0 && defined(SEA)
+    PagePlace place = page_place(surface.grid, cell, max(max(x.x, y.x), max(x.y, y.y)));
+#ifdef TINTED_SEA
     // The waterline is half way between a post of land and one of sea, and a pixel wide.
     float share = at_place(sea, place).r;
     float water = smoothstep(-0.7, 0.7, (share - 0.5) / max(fwidth(share), 1e-4));
 #endif
     vec4 here = at_place(posts, place);
 #ifdef VOIDS
-    if (!is_whole(surface.grid, cell)) discard;
+    if (!is_whole(cell, min(max(x.x, x.y), max(y.x, y.y)))) discard;
     here /= max(here.a, 1e-3);
+#endif
+#ifdef OCEAN
+    if (water_at(place) > 0.1) discard;
 #endif
     vec3 true_normal = vec3(here.xy, sqrt(max(1.0 - dot(here.xy, here.xy), 1e-6)));
     vec3 normal = normalize(vec3(true_normal.xy * frame.surface.x, true_normal.z));
@@ -77,7 +88,7 @@ void main() {
     float relief = (0.32 + 0.12 * normal.z) * day + 0.75 * lit;
 
 #if LAYER == 0  // hypsometric
-#ifdef SEA
+#ifdef TINTED_SEA
     vec3 tint = mix(ramp_colour(0.5 + 0.5 * here.z, 0.0), ramp_colour(0.5 + 0.5 * here.z, 1.0), water);
 #else
     vec3 tint = ramp_colour(0.5 + 0.5 * here.z, 0.0);
@@ -106,5 +117,9 @@ void main() {
 #ifdef SKY
     shown = mix(shown, kHazeColour * day, hazed);
 #endif
+#ifdef PROBE
+    colour = vec4(0.0, 0.0, 0.0, 1.0);
+#else
     colour = vec4(min(shown, vec3(1.0)), 1.0);
+#endif
 }

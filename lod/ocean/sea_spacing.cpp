@@ -1,0 +1,51 @@
+#include "lod/ocean/sea_spacing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lod/ocean/wave_error.hpp"
+
+namespace relevo::lod {
+
+namespace {
+
+constexpr double kFinest = 0.01;  // metres
+constexpr double kStep = 1.05;
+/// Of the pixels of error, for the sagging of triangles under the curved sea. The rest is for waves.
+constexpr double kCurvaturePart = 0.1;
+/// No mesh is coarser: triangles that reach far behind what they cover are clipped and culled badly.
+constexpr double kCoarsestSlope = 0.25;
+
+}  // namespace
+
+SeaSpacing::SeaSpacing(const Waves& waves, double focal_px, double error_px, double radius_m)
+    : focal_px_(focal_px), error_px_(error_px), radius_m_(radius_m) {
+    if (waves.components().empty()) return;
+    const double longest = waves.components().front().length_m();
+    double worst = 0;
+    for (double spacing = kFinest; spacing < longest; spacing *= kStep) {
+        worst = std::max(worst, mesh_error_m(waves, spacing));
+        errors_.push_back(worst);
+    }
+    errors_.push_back(std::max(worst, mesh_error_m(waves, longest)));
+}
+
+bool SeaSpacing::flat_from(double distance_m) const {
+    return errors_.empty() || errors_.back() <= (1 - kCurvaturePart) * error_px_ * distance_m / focal_px_;
+}
+
+double SeaSpacing::at(double distance_m) const {
+    const double error_m = error_px_ * distance_m / focal_px_;
+    // A chord of length s lies s^2 / 8R below the sphere.
+    double spacing =
+        std::min(std::sqrt(8 * radius_m_ * kCurvaturePart * error_m), kCoarsestSlope * distance_m);
+    const double waves_m = (1 - kCurvaturePart) * error_m;
+    if (!errors_.empty() && errors_.back() > waves_m) {
+        const auto beyond = std::upper_bound(errors_.begin(), errors_.end(), waves_m);
+        const auto step = std::max<std::ptrdiff_t>(beyond - errors_.begin() - 1, 0);
+        spacing = std::min(spacing, kFinest * std::pow(kStep, static_cast<double>(step)));
+    }
+    return spacing;
+}
+
+}  // namespace relevo::lod

@@ -1,0 +1,17 @@
+#include "viewer/draw_settings.hpp"
+
+namespace relevo::viewer {
+
+DrawSettings draw_settings(const ViewState& view) {
+    DrawSettings settings{.layer = view.layer,
+                          .wireframe = view.wireframe,
+                          .exaggeration = view.exaggeration,
+                          .sun = view.sun,
+                          .ocean = view.ocean};
+    if (view.ocean.kind == OceanKind::automatic && view.layer != Layer::hypsometric)
+        settings.ocean.kind = OceanKind::off;
+    settings.ocean.error_px = view.tau_px;
+    return settings;
+}
+
+}  // namespace relevo::viewer

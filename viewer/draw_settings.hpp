@@ -1,0 +1,28 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "viewer/layer.hpp"
+#include "viewer/ocean/ocean_settings.hpp"
+#include "viewer/sun_setting.hpp"
+#include "viewer/view_state.hpp"
+
+namespace relevo::viewer {
+
+/// How a scene is drawn.
+struct DrawSettings {
+    Layer layer = Layer::hypsometric;
+    bool wireframe = false;
+    double exaggeration = 1;
+    SunSetting sun = {};
+    /// A flat colour, 0 to 1, instead of sky, horizon and haze.
+    std::optional<std::array<float, 3>> background = {};
+    OceanSettings ocean = {.kind = OceanKind::off};
+};
+
+/// What a view says of it. Where it leaves the ocean open there is one in the tints alone: other layers show
+/// values of the ground, which water would cover.
+DrawSettings draw_settings(const ViewState& view);
+
+}  // namespace relevo::viewer

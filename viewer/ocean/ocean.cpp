@@ -1,0 +1,341 @@
+#include "viewer/ocean/ocean.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "lod/ocean/geoclipmap.hpp"
+#include "lod/ocean/projected_mesh.hpp"
+#include "lod/ocean/radial_grid.hpp"
+#include "viewer/gl_check.hpp"
+#include "viewer/gl_program.hpp"
+#include "viewer/ocean/ocean_block.hpp"
+
+namespace relevo::viewer {
+
+namespace {
+
+// As in shaders/ocean*.
+constexpr GLuint kOceanBinding = 1;
+constexpr GLuint kMeshBinding = 2;
+constexpr GLuint kUndulationUnit = 5;
+constexpr GLuint kRipplesUnit = 6;
+
+/// Texels a side, odd: the nadir's is in the middle. They are as far apart from each other as from the nadir,
+/// over 16: bilinear between them, N is right to centimetres out to 10 km.
+constexpr int kUndulations = 33;
+constexpr double kUndulationReach = 0.5 * (kUndulations - 1) / kUndulations;
+
+double ms_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::string_view vertex_shader(OceanKind kind) {
+    switch (kind) {
+        case OceanKind::radial:
+            return "ocean_radial.vert";
+        case OceanKind::projected:
+            return "ocean_projected.vert";
+        default:
+            return "ocean_geoclipmap.vert";
+    }
+}
+
+std::unique_ptr<lod::OceanMesh> make_mesh(OceanKind kind) {
+    switch (kind) {
+        case OceanKind::radial:
+            return std::make_unique<lod::RadialGrid>();
+        case OceanKind::projected:
+            return std::make_unique<lod::ProjectedMesh>();
+        default:
+            return std::make_unique<lod::Geoclipmap>();
+    }
+}
+
+geo::LatLon middle_of(const geo::GridFrame& grid) {
+    return grid.lat_lon({0.5 * (grid.columns - 1), 0.5 * (grid.rows - 1)});
+}
+
+}  // namespace
+
+void OceanFigures::add(const OceanFigures& other) {
+    if (other.kind != OceanKind::off) kind = other.kind;
+    vertices += other.vertices;
+    triangles += other.triangles;
+    draw_calls += other.draw_calls;
+    arrange_ms += other.arrange_ms;
+    draw_ms += other.draw_ms;
+}
+
+OceanKind chosen(OceanKind kind) {
+    return kind == OceanKind::automatic ? OceanKind::geoclipmap : kind;
+}
+
+Ocean::Ocean(const lod::Terrain& terrain, const GroundTextures& ground, const EyeHeight* heights)
+    : terrain_(&terrain),
+      ground_(&ground),
+      heights_(heights),
+      middle_(middle_of(terrain.frame())),
+      water_(terrain.frame(), ground.top()) {}
+
+double Ocean::sea_height(geo::LatLon place) const {
+    return heights_ ? heights_->undulation(place).m : 0;
+}
+
+void Ocean::update_water() {
+    const GroundPages& pages = ground_->pages();
+    if (pages.shown() == water_of_) return;
+    water_of_ = pages.shown();
+    std::vector<WaterPages::Shown> shown;
+    for (const auto& [page, slot] : water_of_)
+        shown.push_back({page, pages.has_sea(slot), pages.has_land(slot)});
+    water_.fill(shown);
+}
+
+lod::Water Ocean::water_in(const lod::SeaView& sea, const glm::dvec2& centre, double radius_m) const {
+    const geo::GridFrame& grid = terrain_->frame();
+    const geo::LatLon place = sea.chart.place(sea.nadir + centre);
+    const geo::GridPosition at = grid.grid_position(place);
+    const double angle = geo::Degrees::from_radians(1.1 * radius_m / sea.radius_m).value;
+    double columns = INFINITY;
+    double rows = INFINITY;
+    if (!grid.is_polar()) {
+        rows = angle / grid.step_y;
+        const double poleward = std::abs(place.lat.value) + angle;
+        if (poleward < 89.9) columns = angle / std::cos(geo::Degrees{poleward}.radians()) / grid.step_x;
+    } else if (angle < 30) {
+        // The plane's scale grows by less out to 30 degrees from any place of the data.
+        columns = 2 * radius_m / grid.step_x;
+        rows = 2 * radius_m / grid.step_y;
+    }
+    // Beyond the data the sea goes on as it is on the border.
+    const double last_column = grid.columns - 1;
+    const double last_row = grid.rows - 1;
+    const double turn = grid.is_polar() ? INFINITY : 360 / grid.step_x;
+    const double north = std::clamp(at.row - rows, 0.0, last_row);
+    const double south = std::clamp(at.row + rows, 0.0, last_row);
+    WaterPages::Content all;
+    const auto add = [&](double west, double east) {
+        const WaterPages::Content part =
+            water_.in({std::clamp(west, 0.0, last_column), north, std::clamp(east, 0.0, last_column), south});
+        all = {all.sea || part.sea, all.land || part.land};
+    };
+    const double west = at.column - columns;
+    const double east = at.column + columns;
+    add(west, east);
+    const double middle = 0.5 * last_column;
+    if (west < middle - 0.5 * turn) add(west + turn, east + turn);
+    if (east > middle + 0.5 * turn) add(west - turn, east - turn);
+    if (!all.sea) return lod::Water::none;
+    return all.land ? lod::Water::shore : lod::Water::open;
+}
+
+void Ocean::update_waves(const lod::Wind& wind) {
+    const auto same = [](const lod::Wind& a, const lod::Wind& b) {
+        return a.speed_m_s == b.speed_m_s && a.from == b.from && a.fetch_m == b.fetch_m;
+    };
+    if (wind_ && same(*wind_, wind)) return;
+    wind_ = wind;
+    waves_ = lod::Waves::of_wind(wind);
+    ripples_.emplace(wind);
+    ripples_baked_ = false;
+}
+
+void Ocean::make_objects() {
+    if (block_) return;
+    block_ = GlBuffer::create();
+    glNamedBufferStorage(block_.name(), sizeof(OceanBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
+    mesh_block_ = GlBuffer::create();
+    glNamedBufferStorage(mesh_block_.name(), lod::OceanPicture::kMostNumbers * sizeof(glm::vec4), nullptr,
+                         GL_DYNAMIC_STORAGE_BIT);
+    undulation_ = GlTexture(create_gl_texture(GL_TEXTURE_2D));
+    glTextureStorage2D(undulation_.name(), 1, GL_R32F, kUndulations, kUndulations);
+    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+        glTextureParameteri(undulation_.name(), filter, GL_LINEAR);
+    for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+        glTextureParameteri(undulation_.name(), axis, GL_CLAMP_TO_EDGE);
+    ripple_tiles_ = GlTexture(create_gl_texture(GL_TEXTURE_2D_ARRAY));
+    glTextureStorage3D(ripple_tiles_.name(), 1, GL_RG8, Ripples::kSide, Ripples::kSide, Ripples::kLayers);
+    glTextureParameteri(ripple_tiles_.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+}
+
+void Ocean::bake_ripples(double time_s) {
+    if (ripples_baked_ && time_s == ripples_time_s_) return;
+    std::vector<std::uint8_t> texels;
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    for (int layer = 0; layer < Ripples::kLayers; ++layer) {
+        ripples_->bake(layer, time_s, texels);
+        glTextureSubImage3D(ripple_tiles_.name(), 0, 0, 0, layer, Ripples::kSide, Ripples::kSide, 1, GL_RG,
+                            GL_UNSIGNED_BYTE, texels.data());
+    }
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    ripples_time_s_ = time_s;
+    ripples_baked_ = true;
+}
+
+void Ocean::update_undulation(const lod::SeaView& sea, double sea_h_m) {
+    std::vector<float> texels;
+    constexpr int kMiddle = kUndulations / 2;
+    for (int y = -kMiddle; y <= kMiddle; ++y) {
+        for (int x = -kMiddle; x <= kMiddle; ++x) {
+            const glm::dvec2 part = glm::dvec2(x, y) / static_cast<double>(kMiddle);
+            const glm::dvec2 at = part * std::min(glm::length(part), 1.0) * sea.reach_m;
+            texels.push_back(static_cast<float>(sea_height(sea.chart.place(sea.nadir + at)) - sea_h_m));
+        }
+    }
+    glTextureSubImage2D(undulation_.name(), 0, 0, 0, kUndulations, kUndulations, GL_RED, GL_FLOAT,
+                        texels.data());
+}
+
+void Ocean::use_mesh(OceanKind kind, std::unique_ptr<lod::OceanMesh> mesh) {
+    buffers_.erase(kind);
+    buffers_[kind].mesh = std::move(mesh);
+}
+
+Ocean::Buffers& Ocean::buffers(OceanKind kind) {
+    Buffers& made = buffers_[kind];
+    if (made.array) return made;
+    if (!made.mesh) made.mesh = make_mesh(kind);
+    std::vector<glm::i16vec2> vertices;
+    std::vector<std::uint16_t> indices;
+    for (const lod::OceanPatch& patch : made.mesh->patches()) {
+        made.parts.push_back({static_cast<int>(vertices.size()), static_cast<int>(indices.size()),
+                              static_cast<int>(patch.indices.size()),
+                              static_cast<int>(patch.vertices.size())});
+        vertices.insert(vertices.end(), patch.vertices.begin(), patch.vertices.end());
+        indices.insert(indices.end(), patch.indices.begin(), patch.indices.end());
+    }
+    made.vertices = GlBuffer::create();
+    made.indices = GlBuffer::create();
+    made.copies = GlBuffer::create();
+    glNamedBufferStorage(made.vertices.name(),
+                         static_cast<GLsizeiptr>(vertices.size() * sizeof(glm::i16vec2)), vertices.data(), 0);
+    glNamedBufferStorage(made.indices.name(), static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint16_t)),
+                         indices.data(), 0);
+    made.array = GlVertexArray::create();
+    const GlName array = made.array.name();
+    glVertexArrayElementBuffer(array, made.indices.name());
+    glVertexArrayVertexBuffer(array, 0, made.vertices.name(), 0, sizeof(glm::i16vec2));
+    glEnableVertexArrayAttrib(array, 0);
+    glVertexArrayAttribIFormat(array, 0, 2, GL_SHORT, 0);
+    glVertexArrayAttribBinding(array, 0, 0);
+    glVertexArrayVertexBuffer(array, 1, made.copies.name(), 0, sizeof(glm::vec4));
+    glVertexArrayBindingDivisor(array, 1, 1);
+    glEnableVertexArrayAttrib(array, 1);
+    glVertexArrayAttribFormat(array, 1, 4, GL_FLOAT, GL_FALSE, 0);
+    glVertexArrayAttribBinding(array, 1, 1);
+    return made;
+}
+
+Result<GlName> Ocean::program(const Variant& variant) {
+    if (const auto known = programs_.find(variant); known != programs_.end()) return known->second.name();
+    std::string defines =
+        fmt::format("#define TOP_LEVEL {}\n", ground_->top()) + shore_defines(ground_->facts());
+    if (variant.shore) defines += "#define SHORE\n";
+    if (variant.sky) defines += "#define SKY\n";
+    if (variant.probe) defines += "#define PROBE\n";
+    if (!ground_->facts().sea_is_level) defines += "#define BED\n";
+    if (const auto* polar = terrain_->positions().polar())
+        defines += fmt::format("#define POLE {:.1f}\n", polar->plane().pole);
+    std::string common;
+    for (const char* file : {"frame.glsl", "ground.glsl", "shore.glsl", "ocean.glsl"})
+        common += shader_text(file);
+    const std::string vertex =
+        std::string(shader_text(vertex_shader(variant.kind))) + std::string(shader_text("ocean.vert"));
+    auto made = build_program({.name = "ocean",
+                               .defines = std::move(defines),
+                               .common = common,
+                               .vertex = vertex,
+                               .geometry = {},
+                               .fragment = shader_text("ocean.frag")});
+    if (!made) return made.error();
+    return programs_.emplace(variant, std::move(*made)).first->second.name();
+}
+
+Result<OceanFigures> Ocean::draw(const lod::View& view, const OceanSettings& settings, const Look& look) {
+    const auto start = std::chrono::steady_clock::now();
+    OceanFigures figures;
+    if (settings.kind == OceanKind::off || !ground_->facts().has_sea) return figures;
+    const geo::Geodetic& eye = view.camera().eye;
+    const geo::LatLon place{eye.lat, eye.lon};
+    const double sea_h_m = sea_height(place);
+    const double eye_m = eye.h.m - sea_h_m;
+    update_waves(settings.wind);
+    const double radius_m = 6371e3;
+    const lod::SeaSpacing spacing(waves_, lod::height_px(view), settings.error_px, radius_m);
+    // Where no wave is to be seen, the chart may follow the eye: it is undistorted there.
+    const bool waves_seen = !spacing.flat_from(std::max(std::abs(eye_m) - waves_.crest_m(), 0.1));
+    chart_.emplace(waves_seen ? lod::sea_chart_anchor(middle_, place) : place);
+    const lod::SeaView sea(view, *chart_, sea_h_m, waves_.crest_m());
+
+    update_water();
+    const lod::WaterIn has_water = [&](const glm::dvec2& centre, double radius) {
+        return water_in(sea, centre, radius);
+    };
+    if (has_water({0, 0}, sea.reach_m) == lod::Water::none) return figures;
+    const OceanKind kind = chosen(settings.kind);
+    lod::OceanPicture picture;
+    Buffers& drawn = buffers(kind);
+    drawn.mesh->arrange(sea, spacing, has_water, picture);
+    std::vector<glm::vec4> copies;
+    for (const auto& [open, shore] : picture.copies) {
+        copies.insert(copies.end(), open.begin(), open.end());
+        copies.insert(copies.end(), shore.begin(), shore.end());
+    }
+    if (copies.empty()) return figures;
+
+    make_objects();
+    bake_ripples(settings.time_s);
+    update_undulation(sea, sea_h_m);
+    const auto open_water = program({kind, false, look.sky, look.probe});
+    if (!open_water) return open_water.error();
+    const auto shore = program({kind, true, look.sky, look.probe});
+    if (!shore) return shore.error();
+    const OceanBlock block = ocean_block(sea, sea_h_m, kUndulationReach, waves_seen ? waves_ : lod::Waves(),
+                                         *ripples_, *terrain_, ground_->facts(), settings, look.sun);
+    glNamedBufferSubData(block_.name(), 0, sizeof(block), &block);
+    glNamedBufferSubData(mesh_block_.name(), 0,
+                         static_cast<GLsizeiptr>(picture.numbers.size() * sizeof(glm::vec4)),
+                         picture.numbers.data());
+    glNamedBufferData(drawn.copies.name(), static_cast<GLsizeiptr>(copies.size() * sizeof(glm::vec4)),
+                      copies.data(), GL_STREAM_DRAW);
+    figures.kind = kind;
+    figures.arrange_ms = ms_since(start);
+
+    glBindVertexArray(drawn.array.name());
+    glBindBufferBase(GL_UNIFORM_BUFFER, kOceanBinding, block_.name());
+    glBindBufferBase(GL_UNIFORM_BUFFER, kMeshBinding, mesh_block_.name());
+    ground_->bind();
+    glBindTextureUnit(kUndulationUnit, undulation_.name());
+    glBindTextureUnit(kRipplesUnit, ripple_tiles_.name());
+    // Ground at the sea's own level loses.
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(0, 16);
+    std::size_t first = 0;
+    const auto draw_copies = [&](const Buffers::Part& part, std::size_t count, GlName with) {
+        if (count == 0) return;
+        glUseProgram(with);
+        const auto* indices = reinterpret_cast<const void*>(static_cast<std::uintptr_t>(part.first_index) *
+                                                            sizeof(std::uint16_t));
+        glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, part.indices, GL_UNSIGNED_SHORT, indices,
+                                                      static_cast<GLsizei>(count), part.first_vertex,
+                                                      static_cast<GLuint>(first));
+        first += count;
+        ++figures.draw_calls;
+        figures.triangles += count * static_cast<std::uint64_t>(part.indices) / 3;
+        figures.vertices += count * static_cast<std::uint64_t>(part.vertices);
+    };
+    for (std::size_t i = 0; i < picture.copies.size(); ++i) {
+        draw_copies(drawn.parts[i], picture.copies[i].open.size(), *open_water);
+        draw_copies(drawn.parts[i], picture.copies[i].shore.size(), *shore);
+    }
+    glDisable(GL_POLYGON_OFFSET_FILL);
+    return figures;
+}
+
+}  // namespace relevo::viewer

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "geo/result.hpp"
+#include "lod/ocean/ocean_mesh.hpp"
+#include "lod/ocean/sea_spacing.hpp"
+#include "lod/ocean/waves.hpp"
+#include "lod/terrain.hpp"
+#include "lod/view.hpp"
+#include "viewer/gl_object.hpp"
+#include "viewer/ground/ground_textures.hpp"
+#include "viewer/ocean/ocean_settings.hpp"
+#include "viewer/ocean/ripples.hpp"
+#include "viewer/ocean/water_pages.hpp"
+#include "viewer/sun_setting.hpp"
+
+namespace relevo::viewer {
+
+/// What of the sea a picture drew; all 0 where there is none in view.
+struct OceanFigures {
+    OceanKind kind = OceanKind::off;  ///< that was drawn, never automatic
+    std::uint64_t vertices = 0;
+    std::uint64_t triangles = 0;
+    int draw_calls = 0;
+    double arrange_ms = 0;  ///< of the processor, to choose what is drawn
+    double draw_ms = 0;     ///< to its last pixel; only where it is asked for
+
+    void add(const OceanFigures& other);
+};
+
+/// Draws a scene's sea: one mesh of three, waves, water. Makes nothing in OpenGL before there is sea in view.
+class Ocean {
+  public:
+    /// What is referred to must outlive the ocean. \param heights  null: the sea is at the ellipsoid
+    Ocean(const lod::Terrain& terrain, const GroundTextures& ground, const EyeHeight* heights);
+
+    struct Look {
+        SunSetting sun;
+        bool sky = true;  ///< haze in the distance
+        bool probe =
+            false;  ///< instead of colours: place in the chart from the nadir, height of the waves, 2
+    };
+    /// Draws what of the sea is in view into what is current, with depth. \pre the frame's uniforms are bound
+    Result<OceanFigures> draw(const lod::View& view, const OceanSettings& settings, const Look& look);
+
+    /// The waves that the last picture had, and the chart that its probe speaks of.
+    const lod::Waves& waves() const { return waves_; }
+    const std::optional<lod::SeaChart>& chart() const { return chart_; }
+
+    /// A mesh instead of the ones that a view chooses, for measuring.
+    void use_mesh(OceanKind kind, std::unique_ptr<lod::OceanMesh> mesh);
+
+  private:
+    struct Buffers {
+        std::unique_ptr<lod::OceanMesh> mesh;
+        GlBuffer vertices, indices, copies;
+        GlVertexArray array;
+        struct Part {
+            int first_vertex, first_index, indices, vertices;
+        };
+        std::vector<Part> parts;  // of each patch
+    };
+    struct Variant {
+        OceanKind kind;
+        bool shore, sky, probe;
+        friend auto operator<=>(const Variant&, const Variant&) = default;
+    };
+
+    lod::Water water_in(const lod::SeaView& sea, const glm::dvec2& centre, double radius_m) const;
+    void update_water();
+    void update_waves(const lod::Wind& wind);
+    void update_undulation(const lod::SeaView& sea, double sea_h_m);
+    double sea_height(geo::LatLon place) const;
+    Buffers& buffers(OceanKind kind);
+    Result<GlName> program(const Variant& variant);
+    void make_objects();
+    void bake_ripples(double time_s);
+
+    const lod::Terrain* terrain_;
+    const GroundTextures* ground_;
+    const EyeHeight* heights_;
+    geo::LatLon middle_;
+    WaterPages water_;
+    std::vector<PageTable::Resident> water_of_;  // what `water_` was made of
+
+    std::optional<lod::Wind> wind_;
+    lod::Waves waves_;
+    std::optional<Ripples> ripples_;
+    double ripples_time_s_ = 0;
+    bool ripples_baked_ = false;
+    std::optional<lod::SeaChart> chart_;
+
+    std::map<OceanKind, Buffers> buffers_;
+    std::map<Variant, GlProgram> programs_;
+    GlBuffer block_, mesh_block_;
+    GlTexture undulation_, ripple_tiles_;
+};
+
+/// The mesh that `automatic` stands for.
+OceanKind chosen(OceanKind kind);
+
+}  // namespace relevo::viewer

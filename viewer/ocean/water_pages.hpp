@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "viewer/ground/page.hpp"
+
+namespace relevo::viewer {
+
+/// Where there is sea, as coarsely as the pages that a picture is drawn from tell: what they have no sea in,
+/// the picture shows none in.
+class WaterPages {
+  public:
+    WaterPages(const geo::GridFrame& frame, int top);
+
+    /// A page that is drawn from, and whether any of its posts is sea.
+    struct Shown {
+        Page page;
+        bool sea;
+        bool land;  ///< is any not?
+    };
+    /// \param shown  parents before their children
+    void fill(const std::vector<Shown>& shown);
+
+    /// Cells of the grid, borders included.
+    struct Rectangle {
+        double west, north, east, south;
+    };
+    /// Is any sea there, any land? Parts of pages count whole.
+    struct Content {
+        bool sea = false;
+        bool land = false;
+    };
+    Content in(const Rectangle& cells) const {
+        Content content;
+        add(cells, Page{top_, 0, 0}, content);
+        return content;
+    }
+
+  private:
+    struct State {
+        bool shown = false;
+        Content own;    // of the page itself
+        Content below;  // of it and of all pages below it that are shown
+    };
+    void add(const Rectangle& cells, const Page& page, Content& content) const;
+    std::size_t index(const Page& page) const;
+
+    geo::GridFrame frame_;
+    int top_;
+    std::vector<State> states_;  // of each page of each level, the top's first
+};
+
+}  // namespace relevo::viewer

@@ -1,0 +1,105 @@
+// Water: the bed through it, the sky and the sun on it, foam where it ends.
+layout(binding = 6) uniform sampler2DArray ripples;  // slopes to the east and north over the layer's largest
+
+in Water {
+    vec3 offset;
+    vec3 up;
+    vec2 grid;
+    vec2 at;
+    vec4 wave;
+    float spacing;
+}
+water;
+
+out vec4 colour;
+
+const vec3 kAbsorption = vec3(0.40, 0.065, 0.045);  // a metre of clear coastal water
+const vec3 kDeep = vec3(0.010, 0.075, 0.130);       // what comes back out of deep water
+const vec3 kSand = vec3(0.74, 0.69, 0.55);
+const vec3 kFoam = vec3(0.86, 0.90, 0.92);
+
+vec3 sky_in(float rise) { return mix(kHazeColour, kZenithColour, 1.0 - exp(-3.5 * max(rise, 0.0))); }
+
+// Slope of a layer of ripples, where the mesh does not carry their waves itself.
+vec2 ripple_slope(int layer) {
+    vec4 here = ocean.ripples[layer];
+    float wavelength = 0.0625 * exp2(float(layer));
+    float left = ocean.steepest[layer].x * (1.0 - smoothstep(2.85, 4.5, wavelength / water.spacing));
+    mat2 turn = mat2(here.z, -here.w, here.w, here.z);
+    vec2 slope = texture(ripples, vec3(here.xy + turn * water.at, float(layer))).rg * 2.0 - 1.0;
+    return slope * turn * (exp2(float(layer)) * left);
+}
+
+void main() {
+#ifdef SHORE
+    vec2 grid = in_data(water.grid);
+    ivec2 cell = cell_at(grid);
+    vec2 steps = max(abs(dFdx(water.grid)), abs(dFdy(water.grid)));
+    PagePlace place = page_place(grid, cell, max(steps.x, steps.y));
+#endif
+#ifdef PROBE
+    colour = vec4(water.at, water.wave.z, 2.0);
+#else
+    // A texel is a 128th of a tile of 2^layer metres.
+    vec2 wide = max(abs(dFdx(water.at)), abs(dFdy(water.at)));
+    float layer = clamp(rough_log2(max(wide.x, wide.y)) + 6.5, 0.0, float(kRippleLayers) - 1.001);
+    float finer = 1.0 - fract(layer);
+    vec2 seen = ripple_slope(int(layer)) * finer + ripple_slope(int(layer) + 1) * (1.0 - finer);
+    // Waves of different layers have nothing to do with each other: their variances add.
+    seen *= inversesqrt(finer * finer + (1.0 - finer) * (1.0 - finer));
+    vec2 slope = water.wave.xy + seen;
+    float rough = max(ocean.slopes.x - dot(seen, seen), 0.25 * ocean.slopes.x) + 1e-5;
+    vec3 normal = normalize(water.up - slope.x * ocean.nadir_east.xyz - slope.y * ocean.nadir_north.xyz);
+
+    float way = length(water.offset);
+    vec3 to_eye = -water.offset / way;
+    float day = dimmed(ocean.sun.w);
+    float facing = dot(normal, to_eye);
+    float flat_facing = dot(water.up, to_eye);
+    // Waves that turn away are hidden by those that do not: at grazing angles a rough sea is steeper than its mean.
+    float steepness = max(max(facing, flat_facing * 0.5), 0.0) + 0.45 * sqrt(rough);
+    float mirrored = 0.02 + 0.98 * pow(1.0 - min(steepness, 1.0), 5.0);
+
+    float depth = water.wave.w;
+    vec3 bed = kSand;
+#if defined(BED) && defined(SHORE)
+    vec4 ground = mix(textureLod(posts, place.fine, 0.0), textureLod(posts, place.coarse, 0.0), place.blend);
+    ground /= max(ground.a, 1e-3);
+    depth = -(ground.z * SCENE_HALF + SCENE_MIDDLE);
+    bed *= clamp(0.75 + 1.5 * dot(ground.xy, vec2(-0.5, 0.5)), 0.3, 1.3);
+#endif
+    float through = max(depth + water.wave.z, 0.0);
+    vec3 left_over = exp(-kAbsorption * through * (1.0 + 0.75 / max(0.66 + 0.34 * flat_facing, 0.3)));
+    vec3 body = mix(kDeep, bed * 0.75, left_over);
+
+    vec3 mirror = reflect(-to_eye, normal);
+    vec3 shown = mix(body * day, sky_in(abs(dot(mirror, water.up))) * day, mirrored);
+
+    // The sun: the share of facets that throw it here (Cox and Munk).
+    vec3 sun = ocean.sun.xyz;
+    vec3 facet = normalize(sun + to_eye);
+    float steep = dot(facet, normal);
+    float tilt = max(1.0 / max(steep * steep, 1e-3) - 1.0, 0.0);
+    float glitter = exp(-tilt / rough) / (rough * 4.0 * steep * steep * steep * steep);
+    float shine = 0.02 + 0.98 * pow(1.0 - max(dot(facet, to_eye), 0.0), 5.0);
+    shown += vec3(1.0, 0.95, 0.85) * (0.32 * glitter * shine / max(steepness, 0.1)) * step(0.0, dot(sun, water.up)) * ocean.sun.w;
+
+#ifdef SHORE
+    // Foam at the waterline, more of it the rougher the sea.
+    float band = 0.1 + 8.0 * ocean.slopes.x;
+    float foam = min(12.0 * ocean.slopes.x, 0.6) * (1.0 - smoothstep(0.0, band, through)) * smoothstep(-0.05, 0.10, slope.x + slope.y);
+    shown = mix(shown, kFoam * day, foam);
+#endif
+    // From below: a window of sky above the eye, around it the deep.
+    if (flat_facing < 0.0 && ocean.nadir_up.w < water.wave.z)
+        shown = mix(kDeep * 1.6, sky_in(1.0), pow(max(-flat_facing, 0.0), 3.0)) * day;
+#ifdef SKY
+    shown = mix(shown, kHazeColour * day, haze(way, frame.eye_up.w, 0.0));
+#endif
+    colour = vec4(min(shown, vec3(1.0)), 1.0);
+#endif
+#ifdef SHORE
+    // A little more than the ground leaves, lest both leave a pixel to the other.
+    if (water_at(place) < -0.1) discard;
+#endif
+}

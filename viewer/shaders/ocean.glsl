@@ -1,0 +1,31 @@
+// What all shaders of the sea know of a picture. Places on the sea are metres from the eye's nadir in the chart
+// (lod/ocean/sea_chart.hpp), offsets are from the eye in ECEF axes.
+const int kMostWaves = 32;
+const int kRippleLayers = 10;
+layout(std140, binding = 1) uniform Ocean {
+    vec4 anchor_east;   // the chart's axes in ECEF; w: the nadir's x over the radius
+    vec4 anchor_north;  // w: the nadir's y over the radius
+    vec4 anchor_up;     // w: 1 / radius
+    vec4 nadir_up;      // the ellipsoid's normal at the nadir; w: height of the eye above sea level
+    vec4 nadir_east;    // along the chart's axes there
+    vec4 nadir_north;
+    vec4 level;         // of the sea above the ellipsoid at the nadir; how far the sea is seen; largest texel of `undulation`
+                        // from its middle, 0 to 0.5; waves
+    vec4 grid;          // column and row of the nadir; posts a radian (geographic) or a unit of the plane (POLE)
+    vec4 depth;         // metres a post; 1: the sea has no bed of its own
+    vec4 sun;           // ECEF; w: daylight
+    vec4 slopes;        // variance of the sea's slope
+    vec4 ripples[kRippleLayers];   // of each layer: where the nadir is in a tile; the tile's east, tiles a metre long
+    vec4 steepest[kRippleLayers];  // its largest slope
+    vec4 waves[2 * kMostWaves];  // k (rad/m, chart), amplitude, phase at the nadir and now; length
+}
+ocean;
+
+// Beyond the data the sea goes on as it is on the data's border.
+vec2 in_data(vec2 grid) {
+#ifndef POLE
+    float turn = 6.28318530718 * ocean.grid.z;
+    grid.x -= turn * round((grid.x - 0.5 * frame.grid.x) / turn);
+#endif
+    return clamp(grid, vec2(0.0), frame.grid.xy);
+}
