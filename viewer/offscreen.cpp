@@ -118,7 +118,7 @@ Result<FinishedPicture> draw_picture(const lod::Terrain& terrain, const GroundDa
     figures.refine_ms = frame.ms();
     figures.triangles = mesh.triangles();
     renderer->upload(mesh);
-    bool terrain_seen = false;
+    bool ground_seen = false;
     double loading_ms = 0;
     for (int y = 0; y < request.height; y += target->height()) {
         for (int x = 0; x < request.width; x += target->width()) {
@@ -129,13 +129,13 @@ Result<FinishedPicture> draw_picture(const lod::Terrain& terrain, const GroundDa
             if (!drawn) return drawn.error();
             figures.draw_calls += drawn->draw_calls;
             figures.ocean.add(drawn->ocean);
-            terrain_seen = terrain_seen || drawn->terrain_seen;
+            ground_seen = ground_seen || drawn->ground_seen;
             target->read_into(made.picture, x, y);
         }
     }
     figures.frame_ms = frame.ms() - loading_ms;
     if (auto done = gl_check("reading the picture"); !done) return done.error();
-    if (!terrain_seen && ground_must_show(terrain, view, state)) {
+    if (!ground_seen && ground_must_show(terrain, view, state)) {
         return Error{ErrorKind::internal, "the ground is in view, but not one of its pixels was drawn (" +
                                               figures.gl + "); nothing was written"};
     }

@@ -198,7 +198,7 @@ Result<DrawFigures> Renderer::probe(const lod::View& view, const DrawSettings& s
 }
 
 Result<DrawFigures> Renderer::draw(const lod::View& view, const DrawSettings& settings,
-                                   const RenderTarget& target, Region region, bool count_terrain) {
+                                   const RenderTarget& target, Region region, bool measured) {
     DrawFigures figures;
     const bool sky = !settings.background;
     const auto program = terrain_program(variant(settings));
@@ -208,23 +208,25 @@ Result<DrawFigures> Renderer::draw(const lod::View& view, const DrawSettings& se
     const auto colour = settings.background.value_or(std::array<float, 3>{0, 0, 0});
     target.begin(colour[0], colour[1], colour[2]);
     // Before the ground: what lies under water is hidden by it, and need not be shaded.
-    if (count_terrain) gl_finish();
+    if (measured) {
+        gl_finish();
+        glBeginQuery(GL_ANY_SAMPLES_PASSED, seen_.name());
+    }
     const auto start = std::chrono::steady_clock::now();
     const auto ocean = ocean_->draw(view, settings.ocean, {.sun = settings.sun, .sky = sky});
     if (!ocean) return ocean.error();
     figures.ocean = *ocean;
-    if (count_terrain && ocean->draw_calls > 0) {
+    if (measured && ocean->draw_calls > 0) {
         gl_finish();
         const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
         figures.ocean.draw_ms = took.count() - ocean->arrange_ms;
     }
     figures.draw_calls += ocean->draw_calls;
     if (index_count_ > 0) {
-        if (count_terrain) glBeginQuery(GL_ANY_SAMPLES_PASSED, seen_.name());
         draw_terrain(*program, settings.layer);
-        if (count_terrain) glEndQuery(GL_ANY_SAMPLES_PASSED);
         ++figures.draw_calls;
     }
+    if (measured) glEndQuery(GL_ANY_SAMPLES_PASSED);
     if (sky) {
         // After the ground, and only where nothing was drawn: there depth is still 0.
         glDepthFunc(GL_EQUAL);
@@ -238,10 +240,10 @@ Result<DrawFigures> Renderer::draw(const lod::View& view, const DrawSettings& se
     glBindVertexArray(0);
     glUseProgram(0);
     target.resolve();
-    if (count_terrain && index_count_ > 0) {
+    if (measured) {
         GLuint seen = 0;
         glGetQueryObjectuiv(seen_.name(), GL_QUERY_RESULT, &seen);
-        figures.terrain_seen = seen != 0;
+        figures.ground_seen = seen != 0;
     }
     if (auto done = gl_check("drawing"); !done) return done.error();
     return figures;

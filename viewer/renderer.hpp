@@ -27,8 +27,8 @@ struct Region {
 
 struct DrawFigures {
     int draw_calls = 0;
-    /// Did any sample of the ground pass? Asked for only where `draw` is told to count.
-    bool terrain_seen = false;
+    /// Did any sample of the ground or of the sea pass? Found out only where `draw` is to measure.
+    bool ground_seen = false;
     OceanFigures ocean;
 };
 
@@ -58,8 +58,9 @@ class Renderer {
 
     /// Draws the uploaded mesh, which must have been made for this view, and sky. The ground's texels that
     /// are not there yet come in the background.
+    /// \param measured  waits where it must to tell what was seen and how long the sea took
     Result<DrawFigures> draw(const lod::View& view, const DrawSettings& settings, const RenderTarget& target,
-                             Region region, bool count_terrain);
+                             Region region, bool measured);
     Result<DrawFigures> draw(const lod::View& view, const DrawSettings& settings,
                              const RenderTarget& target) {
         return draw(view, settings, target, {}, false);

@@ -19,15 +19,20 @@ constexpr double kCoarsestSlope = 0.25;
 }  // namespace
 
 SeaSpacing::SeaSpacing(const Waves& waves, double focal_px, double error_px, double radius_m)
+    : SeaSpacing([&](double spacing_m) { return mesh_error_m(waves, spacing_m); },
+                 waves.components().empty() ? 0 : waves.components().front().length_m(), focal_px, error_px,
+                 radius_m) {}
+
+SeaSpacing::SeaSpacing(const std::function<double(double)>& bound_m, double longest_m, double focal_px,
+                       double error_px, double radius_m)
     : focal_px_(focal_px), error_px_(error_px), radius_m_(radius_m) {
-    if (waves.components().empty()) return;
-    const double longest = waves.components().front().length_m();
+    if (!(longest_m > 0)) return;
     double worst = 0;
-    for (double spacing = kFinest; spacing < longest; spacing *= kStep) {
-        worst = std::max(worst, mesh_error_m(waves, spacing));
+    for (double spacing = kFinest; spacing < longest_m; spacing *= kStep) {
+        worst = std::max(worst, bound_m(spacing));
         errors_.push_back(worst);
     }
-    errors_.push_back(std::max(worst, mesh_error_m(waves, longest)));
+    errors_.push_back(std::max(worst, bound_m(longest_m)));
 }
 
 bool SeaSpacing::flat_from(double distance_m) const {

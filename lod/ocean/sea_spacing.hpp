@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "lod/ocean/waves.hpp"
@@ -7,12 +8,16 @@
 namespace relevo::lod {
 
 /// How far apart a mesh's vertices may be where the sea is some distance from the eye, so that what is drawn
-/// differs from waves and curvature by a given number of pixels at most: the larger of what 4.5 standard
-/// deviations of the waves' error allow (wave_error.hpp) and what the largest sum of it does.
+/// differs from waves and curvature by a given number of pixels at most, by a bound for what meshes are off
+/// the waves (wave_error.hpp, wave_map_error.hpp).
 class SeaSpacing {
   public:
     /// \param focal_px  of the picture, at its corner (lod::View::ErrorScale has it)
     SeaSpacing(const Waves& waves, double focal_px, double error_px, double radius_m);
+    /// \param bound_m    the bound, metres, of a spacing
+    /// \param longest_m  a mesh of this spacing draws nothing of the waves; 0: a still sea
+    SeaSpacing(const std::function<double(double)>& bound_m, double longest_m, double focal_px,
+               double error_px, double radius_m);
 
     /// Metres; grows with the distance, less than it.
     double at(double distance_m) const;

@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "geo/cubic_spline.hpp"
-#include "lod/ocean/wind_sea.hpp"
+#include "lod/ocean/waves.hpp"
 
 namespace relevo::lod {
 
@@ -18,7 +18,6 @@ namespace {
 
 constexpr double kSecondScale = 3.7;
 constexpr geo::Degrees kSecondTurn{37};
-constexpr double kPostsPerSpacing = 2;  // waves of 2 posts are the shortest of a level: 4 vertices to them
 
 /// A square of numbers that repeats.
 struct Square {
@@ -140,26 +139,33 @@ WaveMap::WaveMap(int side, const std::vector<float>& heights_m, double tile_m, g
     const auto copy = [&](double scale, geo::Degrees turn) {
         const double length = mean_length_m_ * scale;
         const double speed = deep_water_rad_s(length) * length / (2 * std::numbers::pi);
-        return Copy{tile_m * scale, {std::cos(turn.radians()), std::sin(turn.radians())}, along * speed};
+        return Copy{
+            tile_m * scale, {std::cos(turn.radians()), std::sin(turn.radians())}, along * speed, length};
     };
     copies_ = {copy(1, geo::Degrees{0}), copy(kSecondScale, kSecondTurn)};
 }
 
-double WaveMap::copy_height(const Copy& copy, const glm::dvec2& at, double time_s, double spacing_m) const {
-    const glm::dvec2 moved = (at - copy.velocity_m_s * time_s) / copy.tile_m;
-    const glm::dvec2 place(copy.turn.x * moved.x + copy.turn.y * moved.y,
-                           copy.turn.x * moved.y - copy.turn.y * moved.x);
-    const double posts = kPostsPerSpacing * spacing_m * levels_.front().side / copy.tile_m;
+glm::dvec2 WaveMap::Copy::in_tile(const glm::dvec2& at, double time_s) const {
+    const glm::dvec2 moved = (at - velocity_m_s * time_s) / tile_m;
+    return {turn.x * moved.x + turn.y * moved.y, turn.x * moved.y - turn.y * moved.x};
+}
+
+double WaveMap::tile_height(const glm::dvec2& at, double spacing) const {
+    const double posts = kPostsPerSpacing * spacing * levels_.front().side;
     const double octave = std::min(std::log2(std::max(posts, 1.0)), static_cast<double>(levels_.size() - 1));
     const auto level = static_cast<std::size_t>(octave);
     const double part = octave - static_cast<double>(level);
-    const double fine = spline_at(levels_[level], place);
-    return part > 0 ? std::lerp(fine, spline_at(levels_[level + 1], place), part) : fine;
+    const double fine = spline_at(levels_[level], at);
+    return part > 0 ? std::lerp(fine, spline_at(levels_[level + 1], at), part) : fine;
 }
 
-double WaveMap::height(const glm::dvec2& at, double time_s, double spacing_m) const {
-    return (copy_height(copies_[0], at, time_s, spacing_m) + copy_height(copies_[1], at, time_s, spacing_m)) /
-           std::numbers::sqrt2;
+double WaveMap::height(const glm::dvec2& at, double time_s, double spacing_m, double depth_m) const {
+    double sum = 0;
+    for (const Copy& copy : copies_) {
+        sum += tile_height(copy.in_tile(at, time_s), spacing_m / copy.tile_m) *
+               depth_part(depth_m, copy.length_m);
+    }
+    return sum / std::numbers::sqrt2;
 }
 
 double WaveMap::crest_m() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -8,6 +9,10 @@
 #include "geo/angle.hpp"
 
 namespace relevo::lod {
+
+/// Posts of the level that a mesh carries, to its spacing: waves of 2 posts are the shortest of a level, with
+/// 4 vertices to them.
+inline constexpr double kPostsPerSpacing = 2;
 
 /// A square of sea that repeats, drawn as two copies that drift with the wind. The second is larger, turned
 /// and so never in step with the first: at one tile's shift the sea is only half like itself, not the same.
@@ -34,8 +39,14 @@ class WaveMap {
     WaveMap(int side, const std::vector<float>& heights_m, double tile_m, geo::Degrees wind_from);
 
     /// Metres above the still sea, for a mesh of this spacing: waves that it cannot carry with 4 vertices
-    /// are averaged away, smoothly in the spacing. Spacing 0: all waves.
-    double height(const glm::dvec2& at, double time_s, double spacing_m = 0) const;
+    /// are averaged away, smoothly in the spacing. Spacing 0: all waves. Ground `depth_m` below the still sea
+    /// takes of each copy the `depth_part` (waves.hpp) of its middling waves.
+    double height(const glm::dvec2& at, double time_s, double spacing_m = 0,
+                  double depth_m = std::numeric_limits<double>::infinity()) const;
+
+    /// The map itself, which both copies are made of, for a mesh of this spacing. Lengths are parts of a
+    /// tile.
+    double tile_height(const glm::dvec2& at, double spacing) const;
 
     /// No wave rises or sinks more, whatever the spacing.
     double crest_m() const;
@@ -48,12 +59,14 @@ class WaveMap {
         double tile_m;
         glm::dvec2 turn;  ///< cosine and sine, clockwise
         glm::dvec2 velocity_m_s;
+        double length_m;  ///< of its middling waves
+
+        /// Where in the tile a place of the chart lies, the tile to 1; not wrapped.
+        glm::dvec2 in_tile(const glm::dvec2& at, double time_s) const;
     };
     const std::array<Copy, 2>& copies() const { return copies_; }
 
   private:
-    double copy_height(const Copy& copy, const glm::dvec2& at, double time_s, double spacing_m) const;
-
     std::vector<Level> levels_;  ///< side posts, side / 2, ... 1, which is 0
     double mean_length_m_;
     std::array<Copy, 2> copies_;

@@ -114,7 +114,7 @@ TEST(RadialGrid, SlicesOutOfViewAreNotDrawn) {
         return picture.copies[0].open.size() + picture.copies[1].open.size();
     };
     EXPECT_EQ(count(Trial(50, 90)), 0U);
-    EXPECT_LT(count(Trial(50, 0)), 0.6 * static_cast<double>(count(Trial(50, -90, 8, 170))));
+    EXPECT_LT(count(Trial(50, 0)), 0.6 * static_cast<double>(count(Trial(50, -90, 8, 179))));
 }
 
 }  // namespace

@@ -198,6 +198,17 @@ TEST(WaveMap, FadesWithTheSpacing) {
     }
 }
 
+TEST(WaveMap, FeelsTheGround) {
+    const WaveMap map(kSide, sea_heights(), kTile, Degrees{20});
+    for (const auto& copy : map.copies())
+        EXPECT_NEAR(copy.length_m / map.mean_length_m(), copy.tile_m / kTile, 1e-12);
+    const double longest = map.copies()[1].length_m;
+    const glm::dvec2 at(12, 34);
+    EXPECT_EQ(map.height(at, 5, 0, 0), 0) << "on dry land";
+    EXPECT_EQ(map.height(at, 5, 0, 0.5 * longest), map.height(at, 5)) << "deep";
+    EXPECT_NE(map.height(at, 5, 0, 0.2 * longest), map.height(at, 5));
+}
+
 TEST(WaveMap, RepeatsWithoutSeam) {
     const WaveMap map(kSide, sea_heights(), kTile, Degrees{20});
     for (const double spacing : {0.0, 3.0, 20.0}) {

@@ -70,7 +70,7 @@ TEST(Voids, AllVoidDrawsNothing) {
     lod::Camera camera = above_looking_down(studio.terrain(), 10, 10, 0);
     camera.eye.h.m = 1000;
     EXPECT_EQ(expect_drawn_where_rays_hit(studio, camera, 1), 0);
-    EXPECT_FALSE(studio.figures.terrain_seen);
+    EXPECT_FALSE(studio.figures.ground_seen);
 }
 
 }  // namespace

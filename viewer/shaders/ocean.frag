@@ -7,15 +7,13 @@ in Water {
     vec2 grid;
     vec2 at;
     vec4 wave;
+    vec4 body;
     float spacing;
 }
 water;
 
 out vec4 colour;
 
-const vec3 kAbsorption = vec3(0.40, 0.065, 0.045);  // a metre of clear coastal water
-const vec3 kDeep = vec3(0.010, 0.075, 0.130);       // what comes back out of deep water
-const vec3 kSand = vec3(0.74, 0.69, 0.55);
 const vec3 kFoam = vec3(0.86, 0.90, 0.92);
 
 vec3 sky_in(float rise) { return mix(kHazeColour, kZenithColour, 1.0 - exp(-3.5 * max(rise, 0.0))); }
@@ -51,50 +49,50 @@ void main() {
     float rough = max(ocean.slopes.x - dot(seen, seen), 0.25 * ocean.slopes.x) + 1e-5;
     vec3 normal = normalize(water.up - slope.x * ocean.nadir_east.xyz - slope.y * ocean.nadir_north.xyz);
 
-    float way = length(water.offset);
-    vec3 to_eye = -water.offset / way;
+    vec3 to_eye = -normalize(water.offset);
     float day = dimmed(ocean.sun.w);
     float facing = dot(normal, to_eye);
     float flat_facing = dot(water.up, to_eye);
     // Waves that turn away are hidden by those that do not: at grazing angles a rough sea is steeper than its mean.
     float steepness = max(max(facing, flat_facing * 0.5), 0.0) + 0.45 * sqrt(rough);
-    float mirrored = 0.02 + 0.98 * pow(1.0 - min(steepness, 1.0), 5.0);
+    float mirrored = 0.02 + 0.98 * power_5(1.0 - min(steepness, 1.0));
 
+    vec3 body = water.body.rgb;
+#ifdef SHORE
     float depth = water.wave.w;
     vec3 bed = kSand;
-#if defined(BED) && defined(SHORE)
-    vec4 ground = mix(textureLod(posts, place.fine, 0.0), textureLod(posts, place.coarse, 0.0), place.blend);
+#ifdef BED
+    vec4 ground = at_place(posts, place);
     ground /= max(ground.a, 1e-3);
     depth = -(ground.z * SCENE_HALF + SCENE_MIDDLE);
-    bed *= clamp(0.75 + 1.5 * dot(ground.xy, vec2(-0.5, 0.5)), 0.3, 1.3);
+    bed *= clamp(0.75 + 0.75 * (ground.y - ground.x), 0.3, 1.3);  // light from the north-west, as on the land
 #endif
-    float through = max(depth + water.wave.z, 0.0);
-    vec3 left_over = exp(-kAbsorption * through * (1.0 + 0.75 / max(0.66 + 0.34 * flat_facing, 0.3)));
-    vec3 body = mix(kDeep, bed * 0.75, left_over);
-
+    depth += water.wave.z;
+    body = water_over(bed, depth, flat_facing);
+#endif
     vec3 mirror = reflect(-to_eye, normal);
     vec3 shown = mix(body * day, sky_in(abs(dot(mirror, water.up))) * day, mirrored);
 
     // The sun: the share of facets that throw it here (Cox and Munk).
     vec3 sun = ocean.sun.xyz;
     vec3 facet = normalize(sun + to_eye);
-    float steep = dot(facet, normal);
-    float tilt = max(1.0 / max(steep * steep, 1e-3) - 1.0, 0.0);
-    float glitter = exp(-tilt / rough) / (rough * 4.0 * steep * steep * steep * steep);
-    float shine = 0.02 + 0.98 * pow(1.0 - max(dot(facet, to_eye), 0.0), 5.0);
-    shown += vec3(1.0, 0.95, 0.85) * (0.32 * glitter * shine / max(steepness, 0.1)) * step(0.0, dot(sun, water.up)) * ocean.sun.w;
+    float steep2 = max(dot(facet, normal), 0.03);
+    steep2 *= steep2;
+    float glitter = exp((1.0 - 1.0 / steep2) / rough) / (rough * 4.0 * steep2 * steep2);
+    float shine = 0.02 + 0.98 * power_5(1.0 - max(dot(facet, to_eye), 0.0));
+    shown += vec3(1.0, 0.95, 0.85) * (0.32 * glitter * shine / max(steepness, 0.1) * ocean.sun.w);
 
 #ifdef SHORE
     // Foam at the waterline, more of it the rougher the sea.
     float band = 0.1 + 8.0 * ocean.slopes.x;
-    float foam = min(12.0 * ocean.slopes.x, 0.6) * (1.0 - smoothstep(0.0, band, through)) * smoothstep(-0.05, 0.10, slope.x + slope.y);
+    float foam = min(12.0 * ocean.slopes.x, 0.6) * (1.0 - smoothstep(0.0, band, max(depth, 0.0))) * smoothstep(-0.05, 0.10, slope.x + slope.y);
     shown = mix(shown, kFoam * day, foam);
 #endif
     // From below: a window of sky above the eye, around it the deep.
     if (flat_facing < 0.0 && ocean.nadir_up.w < water.wave.z)
         shown = mix(kDeep * 1.6, sky_in(1.0), pow(max(-flat_facing, 0.0), 3.0)) * day;
 #ifdef SKY
-    shown = mix(shown, kHazeColour * day, haze(way, frame.eye_up.w, 0.0));
+    shown = mix(shown, kHazeColour * day, water.body.a);
 #endif
     colour = vec4(min(shown, vec3(1.0)), 1.0);
 #endif

@@ -21,6 +21,18 @@ layout(std140, binding = 1) uniform Ocean {
 }
 ocean;
 
+const vec3 kAbsorption = vec3(0.40, 0.065, 0.045);  // a metre of clear coastal water
+const vec3 kDeep = vec3(0.010, 0.075, 0.130);       // what comes back out of deep water
+const vec3 kSand = vec3(0.74, 0.69, 0.55);
+
+// Colour of a bed through so much water, seen from above at a sine of so much.
+vec3 water_over(vec3 bed, float depth, float sine) {
+    vec3 left_over = exp(-kAbsorption * max(depth, 0.0) * (1.0 + 0.75 / max(0.66 + 0.34 * sine, 0.3)));
+    return mix(kDeep, bed * 0.75, left_over);
+}
+
+float power_5(float x) { return x * x * x * x * x; }
+
 // Beyond the data the sea goes on as it is on the data's border.
 vec2 in_data(vec2 grid) {
 #ifndef POLE

@@ -11,6 +11,7 @@ out Water {
     vec2 grid;     // column and row
     vec2 at;       // in the chart, from the nadir
     vec4 wave;     // slope along the chart's axes, height, depth
+    vec4 body;     // colour of what comes out of the water, without a bed; haze
     float spacing;
 }
 water;
@@ -135,5 +136,8 @@ void main() {
     vec3 wave = waves_at(here.xy, here.z, max(depth, 0.0));
     water.wave = vec4(wave, depth);
     water.offset = sea.offset + water.up * wave.z;
+    float way = length(water.offset);
+    float sine = dot(water.up, water.offset) / -way;
+    water.body = vec4(water_over(kSand, depth + wave.z, sine), haze(way, frame.eye_up.w, 0.0));
     gl_Position = frame.clip_from_offset * vec4(water.offset, 1.0);
 }
