@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "app/wave_flag.hpp"
 #include "viewer/camera.hpp"
 #include "viewer/numbers.hpp"
 #include "viewer/offscreen.hpp"
@@ -62,6 +63,9 @@ void add_picture_flags(CLI::App& command, ViewFlags& flags) {
     add("--sun", flags.sun, "auto|AZ,EL|TIME", "Where the light comes from; TIME is ISO 8601 [auto: 315,45]");
     add("--ocean", flags.ocean, "auto|geoclipmap|radial|projected|off", "The sea's mesh [auto]");
     add("--wind", flags.wind, "SPEED,FROM", "What raises the waves, m/s and degrees; 0: a flat sea [6,300]");
+    add("--waves", flags.waves, "MAP[,TILE_M[,HEIGHT_M]]",
+        "Waves of a height map that repeats every TILE_M metres [200] and drifts with the wind; HEIGHT_M "
+        "from its lowest to its highest, needed for shades of grey");
     add("--time", flags.time, "SECONDS", "Of the waves [0]");
     add("--samples", flags.samples, "1|4|8", "Samples a pixel, for smooth edges");
     command.add_option("--memory", flags.memory, "Most memory for terrain and textures, e.g. 512MiB [1GiB]")
@@ -145,6 +149,11 @@ Result<viewer::ViewState> read_view(const ViewFlags& flags, const viewer::ViewSt
     if (flags.exaggeration) view.exaggeration = *flags.exaggeration;
     if (flags.wireframe) view.wireframe = true;
     if (auto fine = check(view); !fine) return fine.error();
+    if (flags.waves) {
+        auto map = read_waves(*flags.waves, view.ocean.wind.from);
+        if (!map) return map.error();
+        view.ocean.map = std::move(*map);
+    }
     return view;
 }
 

@@ -191,6 +191,7 @@ Result<DrawFigures> Renderer::probe(const lod::View& view, const DrawSettings& s
         draw_terrain(*program, settings.layer);
         ++figures.draw_calls;
     }
+    if (const auto filled = ocean_->fill(); !filled) return filled.error();
     glBindVertexArray(0);
     glUseProgram(0);
     if (auto done = gl_check("probing the sea"); !done) return done.error();
@@ -226,6 +227,9 @@ Result<DrawFigures> Renderer::draw(const lod::View& view, const DrawSettings& se
         draw_terrain(*program, settings.layer);
         ++figures.draw_calls;
     }
+    const auto filled = ocean_->fill();
+    if (!filled) return filled.error();
+    figures.draw_calls += *filled;
     if (measured) glEndQuery(GL_ANY_SAMPLES_PASSED);
     if (sky) {
         // After the ground, and only where nothing was drawn: there depth is still 0.

@@ -51,7 +51,7 @@ Result<void> check(const ViewState& view);
 
 /// The whole view as one string without spaces or characters that a shell knows:
 /// "37.58,-105.49,4500/heading=90/pitch=-10/roll=0/fov=60/tau=1/lod=soar/metric=bounded/...". Parsing it
-/// gives the same view, to the last bit.
+/// gives the same view, to the last bit. A map of waves is not in it.
 std::string to_string(const ViewState& view);
 
 /// Reads such a string. What it leaves out keeps the value it has in `base`; only the place must be there.

@@ -18,14 +18,11 @@ constexpr int kRings = 4;
 constexpr int kHole = 1;
 constexpr int kGrowth = (1 + 2 * kRings) / (1 + 2 * kHole);
 
-double distance(const SeaView& sea, double along_m) {
-    return std::hypot(along_m, std::max(std::abs(sea.eye_m) - sea.crest_m, 0.1));
-}
-
 /// Only the curved sea: one square of blocks that are two triangles each. What a block's sag of s^2 / 8R is
-/// at least h away, where the horizon is at sqrt(2 R h) and D blocks across it: f / D^2 pixels.
+/// at least h away, where the horizon is at sqrt(2 R h) and D blocks across it: f / D^2 pixels. It is made a
+/// quarter of the error.
 GeoclipmapShape flat_shape(const SeaView& sea, const SeaSpacing& spacing) {
-    const int across = static_cast<int>(std::ceil(std::sqrt(spacing.focal_px() / spacing.error_px())));
+    const int across = static_cast<int>(std::ceil(std::sqrt(4 * spacing.focal_px() / spacing.error_px())));
     const int rings = std::max(across / 2, 1);
     GeoclipmapShape shape;
     const double block_m = 2 * sea.reach_m / blocks_a_side(rings);
@@ -48,11 +45,11 @@ GeoclipmapShape geoclipmap_shape(int k, double block_m, const std::vector<int>& 
 }
 
 GeoclipmapShape geoclipmap_shape_for(const SeaView& sea, const SeaSpacing& spacing) {
-    if (spacing.flat_from(distance(sea, 0))) return flat_shape(sea, spacing);
+    if (spacing.flat_from(sea.error_distance_m(0))) return flat_shape(sea, spacing);
     GeoclipmapShape shape;
     // In steps of the square root of 2, so that lattices stay where they are while the eye rises or sinks by
     // less.
-    const double steps = std::floor(2 * std::log2(spacing.at(distance(sea, 0))));
+    const double steps = std::floor(2 * std::log2(spacing.at(sea.error_distance_m(0))));
     double block_m = Geoclipmap::kMostCells * std::exp2(0.5 * steps);
     double covered_m = 0;
     for (int square = 0; covered_m < sea.reach_m; ++square, block_m *= kGrowth) {
@@ -65,7 +62,7 @@ GeoclipmapShape geoclipmap_shape_for(const SeaView& sea, const SeaSpacing& spaci
     // Inward, so that no ring is coarser than the one outside of it.
     double most_m = INFINITY;
     for (auto ring = shape.rings.rbegin(); ring != shape.rings.rend(); ++ring) {
-        most_m = std::min(most_m, spacing.at(distance(sea, ring->inner_m())));
+        most_m = std::min(most_m, spacing.at(sea.error_distance_m(ring->inner_m())));
         // Two cells at least: lattices' middles are vertices.
         ring->cells = 2;
         while (ring->cells < Geoclipmap::kMostCells && ring->spacing_m() > most_m) ring->cells *= 2;

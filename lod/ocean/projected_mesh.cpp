@@ -1,6 +1,7 @@
 #include "lod/ocean/projected_mesh.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -9,33 +10,42 @@ namespace relevo::lod {
 
 namespace {
 
-/// The largest side of a projection's cells over the spacing that is allowed there.
-double coarseness(const SeaView& sea, const SeaSpacing& spacing, const Projection& projection) {
-    constexpr int kPlaces = 12;
-    double worst = 0;
-    for (int i = 0; i <= kPlaces; ++i) {
-        for (int k = 0; k <= kPlaces; ++k) {
-            const double u = static_cast<double>(i) / kPlaces;
-            const double v = static_cast<double>(k) / kPlaces;
-            constexpr double kStep = 1e-4;
+constexpr std::array<int, 5> kSides{17, 33, 65, 129, 256};
+
+/// Are all cells of a grid with so many vertices a side within the spacing? What lies on the horizon is not
+/// asked: its cells are as deep as the horizon is far, and hide behind each other.
+bool keeps_to(const SeaView& sea, const SeaSpacing& spacing, const Projection& projection, int side) {
+    constexpr int kColumns = 4;
+    const double cell = 1.0 / (side - 1);
+    for (int i = 0; i <= kColumns; ++i) {
+        const double u = std::min(static_cast<double>(i) / kColumns, 1 - cell);
+        for (int row = 0; row + 1 < side; ++row) {
+            const double v = row * cell;
             const glm::dvec2 at = place(projection, u, v);
-            const double across = glm::distance(at, place(projection, u + kStep, v)) / kStep;
-            const double along = glm::distance(at, place(projection, u, v + kStep)) / kStep;
-            const double most = spacing.at(glm::length(sea.offset(at, 0)));
-            worst = std::max(worst, std::max(across, along) / most);
+            const glm::dvec2 above = place(projection, u, v + cell);
+            const double nearest = std::min(glm::length(at), glm::length(above));
+            if (std::max(glm::length(at), glm::length(above)) >= projection.reach_m) continue;
+            const double longest =
+                std::max(glm::distance(at, above), glm::distance(at, place(projection, u + cell, v)));
+            if (longest > spacing.at(sea.error_distance_m(nearest))) return false;
         }
     }
-    return worst;
+    return true;
 }
 
 }  // namespace
 
-ProjectedMesh::ProjectedMesh() : ProjectedMesh(std::vector<int>{17, 33, 65, 129, 256}) {}
+ProjectedMesh::ProjectedMesh() : ProjectedMesh(std::vector<int>(kSides.begin(), kSides.end())) {}
 
 ProjectedMesh::ProjectedMesh(int side) : ProjectedMesh(std::vector<int>{side}) {}
 
 ProjectedMesh::ProjectedMesh(std::vector<int> sides) : sides_(std::move(sides)) {
     for (const int side : sides_) patches_.push_back(ProjectedGrid(side, side).patch());
+}
+
+bool ProjectedMesh::serves(const SeaView& sea, const SeaSpacing& spacing) {
+    const auto projection = ProjectedGrid(kSides.back(), kSides.back()).project(sea);
+    return !projection || keeps_to(sea, spacing, *projection, kSides.back());
 }
 
 void ProjectedMesh::arrange(const SeaView& sea, const SeaSpacing& spacing, const WaterIn& water_in,
@@ -46,8 +56,7 @@ void ProjectedMesh::arrange(const SeaView& sea, const SeaSpacing& spacing, const
     if (!coarse) return;
     std::size_t chosen = 0;
     if (sides_.size() > 1) {
-        const double cells = coarseness(sea, spacing, *coarse);
-        while (chosen + 1 < sides_.size() && sides_[chosen] - 1 < cells) ++chosen;
+        while (chosen + 1 < sides_.size() && !keeps_to(sea, spacing, *coarse, sides_[chosen])) ++chosen;
     }
     const int side = sides_[chosen];
     const Projection projection = *ProjectedGrid(side, side).project(sea);

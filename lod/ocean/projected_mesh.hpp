@@ -19,6 +19,9 @@ class ProjectedMesh final : public OceanMesh {
     /// Of so many vertices a side, whatever the view.
     explicit ProjectedMesh(int side);
 
+    /// Does any number of cells keep to the spacing?
+    static bool serves(const SeaView& sea, const SeaSpacing& spacing);
+
     const std::vector<OceanPatch>& patches() const override { return patches_; }
     void arrange(const SeaView& sea, const SeaSpacing& spacing, const WaterIn& water_in,
                  OceanPicture& picture) const override;

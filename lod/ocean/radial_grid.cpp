@@ -11,12 +11,9 @@ namespace relevo::lod {
 
 namespace {
 
-constexpr double kMostVertices = 400e3;
+constexpr double kFewestSectors = 96;  // a sixth of the circle a block: what is culled is not much larger
+constexpr double kMostGrowth = 4;  // of a block's radius: what is culled is not much larger than what is seen
 constexpr double kTurn = 2 * std::numbers::pi;
-
-double distance(const SeaView& sea, double along_m) {
-    return std::hypot(along_m, std::max(std::abs(sea.eye_m) - sea.crest_m, 0.1));
-}
 
 int round_up(double count, int to) {
     return std::max(static_cast<int>(std::ceil(count / to)), 1) * to;
@@ -28,39 +25,62 @@ double RadialShape::radius_m(int ring) const {
     return first_m + growth_m * std::pow(ring, exponent);
 }
 
-double RadialShape::spacing_m(int ring) const {
-    return std::max(radius_m(ring + 1) - radius_m(ring), kTurn * radius_m(ring + 1) / sectors);
-}
-
 RadialShape radial_shape(double first_m, double last_m, double exponent, int rings, int sectors) {
     return {first_m, (last_m - first_m) / std::pow(rings - 1, exponent), exponent, rings, sectors};
 }
 
-RadialShape radial_shape_for(const SeaView& sea, const SeaSpacing& spacing, double most_vertices) {
-    // a0: the fan's edges are as long as the first cells'.
-    const double first_m = spacing.at(distance(sea, 0));
-    const double last_m = std::max(sea.reach_m, 4 * first_m);
-    RadialShape best;
-    double fewest = INFINITY;
-    for (double looser = 1;; looser *= 1.1) {
-        for (const double k : {2.0, 3.0, 4.0, 6.0, 8.0}) {
-            double growth = INFINITY;  // a1: dr/di = k a1^(1/k) (r - a0)^((k - 1)/k) is the spacing at most
-            double sectors = 0;
-            for (double r = 1.05 * first_m; r < 1.05 * last_m; r *= 1.05) {
-                const double most = looser * spacing.at(distance(sea, r));
-                growth = std::min(growth, std::pow(most / k, k) / std::pow(r - first_m, k - 1));
-                sectors = std::max(sectors, kTurn * r / most);
-            }
-            const int rings =
-                round_up(std::pow((last_m - first_m) / growth, 1 / k), RadialGrid::kBlockCells) + 1;
-            const int around = round_up(sectors, RadialGrid::kBlockCells);
-            const double vertices = static_cast<double>(rings) * around;
-            if (vertices >= fewest) continue;
-            fewest = vertices;
-            best = radial_shape(first_m, last_m, k, rings, around);
+double RadialRings::spacing_m(std::size_t block) const {
+    const double radius = blocks[block].radius_m;
+    // Of the cells between this ring and the next inwards or outwards.
+    const auto across = [&](std::size_t from) {
+        const double inner = blocks[from].radius_m, outer = blocks[from + 1].radius_m;
+        if (blocks[from].growth == Growth::factor)
+            return radius * std::log(outer / inner) / RadialGrid::kBlockCells;
+        const double even = (outer - inner) / RadialGrid::kBlockCells;
+        // Rings of a power are farther apart at the block's outer end.
+        return blocks[from].growth == Growth::even ? even : even * std::max(exponent, 1.0);
+    };
+    double spacing = kTurn * radius / sectors;
+    if (block > 0) spacing = std::max(spacing, across(block - 1));
+    if (block + 1 < blocks.size()) spacing = std::max(spacing, across(block));
+    return spacing;
+}
+
+RadialRings rings_of(const RadialShape& shape) {
+    RadialRings made{{}, shape.sectors, shape.exponent};
+    for (int ring = 0; ring < shape.rings; ring += RadialGrid::kBlockCells)
+        made.blocks.push_back({shape.radius_m(ring), RadialRings::Growth::power});
+    return made;
+}
+
+RadialRings rings_for(const SeaView& sea, const SeaSpacing& spacing) {
+    const auto allowed = [&](double radius_m) { return spacing.at(sea.error_distance_m(radius_m)); };
+    RadialRings made;
+    double sectors = kFewestSectors;
+    // The fan's edges are as long as the first cells'.
+    double radius = allowed(0);
+    while (radius < sea.reach_m && made.blocks.size() + 3 < OceanPicture::kMostNumbers) {
+        const double cell = allowed(radius);
+        sectors = std::max(sectors, kTurn * radius / cell);
+        if (radius < sea.clear_m) {
+            made.blocks.push_back({radius, RadialRings::Growth::even});
+            radius += cell * RadialGrid::kBlockCells;
+            continue;
         }
-        if (fewest <= most_vertices) return best;
+        // The factor that the block's beginning allows, or its end where the spacing grows less than the
+        // radius.
+        double outer =
+            std::min(radius * std::pow(1 + cell / radius, RadialGrid::kBlockCells), kMostGrowth * radius);
+        for (int trial = 0; trial < 3; ++trial) {
+            const double growth = std::log1p(allowed(outer) / outer);
+            outer = std::min(outer, radius * std::exp(growth * RadialGrid::kBlockCells));
+        }
+        made.blocks.push_back({radius, RadialRings::Growth::factor});
+        radius = outer;
     }
+    made.blocks.push_back({radius, RadialRings::Growth::factor});
+    made.sectors = round_up(sectors, RadialGrid::kBlockCells);
+    return made;
 }
 
 RadialGrid::RadialGrid() {
@@ -75,33 +95,38 @@ RadialGrid::RadialGrid() {
 }
 
 RadialGrid::RadialGrid(const RadialShape& shape) : RadialGrid() {
-    shape_ = shape;
+    rings_ = rings_of(shape);
 }
 
 void RadialGrid::arrange(const SeaView& sea, const SeaSpacing& spacing, const WaterIn& water_in,
                          OceanPicture& picture) const {
-    const RadialShape shape = shape_ ? *shape_ : radial_shape_for(sea, spacing, kMostVertices);
+    const RadialRings rings = rings_ ? *rings_ : rings_for(sea, spacing);
     picture.copies.assign(patches_.size(), {});
-    picture.numbers = {{shape.first_m, shape.growth_m, shape.exponent, shape.sectors}};
+    picture.numbers = {{rings.sectors, rings.exponent, rings.blocks.front().radius_m, 0}};
+    for (std::size_t i = 0; i < rings.blocks.size(); ++i) {
+        const auto growth = static_cast<float>(rings.blocks[i].growth);
+        picture.numbers.emplace_back(rings.blocks[i].radius_m, rings.spacing_m(i), growth, 0);
+    }
 
     const auto water = [&](double from_m, double to_m, int sector) {
-        const double half_angle = 0.5 * kTurn * kBlockCells / shape.sectors;
-        const double middle = kTurn * sector / shape.sectors + half_angle;
+        const double half_angle = 0.5 * kTurn * kBlockCells / rings.sectors;
+        const double middle = kTurn * sector / rings.sectors + half_angle;
         const glm::dvec2 right(std::cos(middle - half_angle), std::sin(middle - half_angle));
         const glm::dvec2 left(std::cos(middle + half_angle), std::sin(middle + half_angle));
-        const double outer_m = to_m / std::cos(half_angle);  // around the arc
-        const std::array<glm::dvec2, 4> corners{from_m * right, outer_m * right, outer_m * left,
+        const double around_m = to_m / std::cos(half_angle);  // the arc
+        const std::array<glm::dvec2, 4> corners{from_m * right, around_m * right, around_m * left,
                                                 from_m * left};
         if (!patch_in_view(sea, corners)) return Water::none;
         const glm::dvec2 centre = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
         return water_in(centre,
                         std::max(glm::distance(centre, corners[0]), glm::distance(centre, corners[1])));
     };
-    for (int sector = 0; sector < shape.sectors; sector += kBlockCells) {
-        picture.add(kFan, water(0, shape.first_m, sector), {0, sector, 0, 0});
-        for (int ring = 0; ring + 1 < shape.rings; ring += kBlockCells) {
-            const Water there = water(shape.radius_m(ring), shape.radius_m(ring + kBlockCells), sector);
-            picture.add(kBlock, there, {ring, sector, 0, 0});
+    for (int sector = 0; sector < rings.sectors; sector += kBlockCells) {
+        const double first_m = rings.blocks.front().radius_m;
+        picture.add(kFan, water(0, first_m, sector), {0, sector, 0, 0});
+        for (std::size_t i = 0; i + 1 < rings.blocks.size(); ++i) {
+            const double inner_m = rings.blocks[i].radius_m, outer_m = rings.blocks[i + 1].radius_m;
+            picture.add(kBlock, water(inner_m, outer_m, sector), {i, sector, 0, 0});
         }
     }
 }

@@ -32,17 +32,19 @@ double height_px(const View& view) {
             const glm::dvec2 pixel(x * camera.width / double{kRays}, y * camera.height / double{kRays});
             const glm::dvec3 ray = view.ray(pixel);
             if (glm::dot(ray, up) > 0.05) continue;
+            const double sine = glm::length(up - ray * glm::dot(ray, up));  // of the angle between the two
+            if (sine < 1e-3) continue;
             const double depth = view.depth(ray);
             const glm::dvec2 moved =
                 glm::dvec2(glm::dot(up, view.right()), glm::dot(up, view.up())) * depth -
                 glm::dvec2(glm::dot(ray, view.right()), glm::dot(ray, view.up())) * view.depth(up);
-            most = std::max(most, view.focal_px() * glm::length(moved) / (depth * depth));
+            most = std::max(most, view.focal_px() * glm::length(moved) / (depth * depth * sine));
         }
     }
     return most > 0 ? most : view.error_scale(0).lambda_px;
 }
 
-SeaView::SeaView(const View& view_, const SeaChart& chart_, double sea_h_m, double crest)
+SeaView::SeaView(const View& view_, const SeaChart& chart_, double sea_h_m, double crest, double wave_m)
     : view(view_), chart(chart_), crest_m(crest) {
     const geo::Geodetic& eye = view.camera().eye;
     nadir = chart.at({eye.lat, eye.lon});
@@ -53,7 +55,15 @@ SeaView::SeaView(const View& view_, const SeaChart& chart_, double sea_h_m, doub
     north = glm::cross(up, east);
     radius_m = geo::wgs84::kSemiMinor / (1 - geo::wgs84::kEccentricity2 * up.z * up.z) + sea_h_m;
     eye_m = eye.h.m - sea_h_m;
+    clear_m = std::max(std::abs(eye_m - wave_m), kLeastClear);
     reach_m = horizon_m(radius_m, eye_m, crest_m);
+}
+
+double SeaView::error_distance_m(double along_m) const {
+    // D over the sine of the angle between the line of sight and the vertical, along / D; least at 45
+    // degrees.
+    const double along = std::max(along_m, clear_m);
+    return (along * along + clear_m * clear_m) / along;
 }
 
 glm::dvec3 SeaView::offset(const glm::dvec2& at, double height_m) const {

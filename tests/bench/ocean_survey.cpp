@@ -58,7 +58,10 @@ struct Options {
 };
 
 viewer::OceanSettings ocean_of(const Options& options) {
-    return {.wind = {.speed_m_s = options.wind_m_s, .from = geo::Degrees{300}}, .time_s = options.time_s};
+    viewer::OceanSettings ocean;
+    ocean.wind.speed_m_s = options.wind_m_s;
+    ocean.time_s = options.time_s;
+    return ocean;
 }
 
 /// Everything that draws a scene, for one size of picture.

@@ -51,8 +51,7 @@ GroundPages::GroundPages(const GroundData& data, const geo::PostPositions& posit
       bounds_(data_.pyramid->frame(), positions, undulations, data_.facts),
       fill_(std::move(fill)),
       slots_(slots),
-      has_sea_(static_cast<std::size_t>(slots)),
-      has_land_(static_cast<std::size_t>(slots)),
+      sea_(static_cast<std::size_t>(slots)),
       table_(data_.pyramid->top()),
       loader_(
           std::make_unique<PageLoader>([this](const Page& page) { return load(page); }, loader_threads())) {}
@@ -99,10 +98,7 @@ void GroundPages::put(PageLoader::Loaded loaded) {
     // Wanted pages never outnumber the slots, so that one that is wanted finds one.
     if (const auto slot = slots_.place(loaded.page, wanted)) {
         fill_(*slot, *loaded.texels);
-        const auto& sea = loaded.texels->sea;
-        const auto is_sea = [](std::uint8_t post) { return post != 0; };
-        has_sea_[static_cast<std::size_t>(*slot)] = std::any_of(sea.begin(), sea.end(), is_sea);
-        has_land_[static_cast<std::size_t>(*slot)] = !std::all_of(sea.begin(), sea.end(), is_sea);
+        sea_[static_cast<std::size_t>(*slot)] = page_sea(loaded.texels->sea);
         if (wanted && missing_ > 0) --missing_;
     }
 }

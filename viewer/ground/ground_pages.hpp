@@ -11,6 +11,7 @@
 #include "lod/undulation_grid.hpp"
 #include "viewer/ground/ground_data.hpp"
 #include "viewer/ground/page_loader.hpp"
+#include "viewer/ground/page_sea.hpp"
 #include "viewer/ground/page_slots.hpp"
 #include "viewer/ground/page_table.hpp"
 #include "viewer/ground/wanted_pages.hpp"
@@ -52,10 +53,8 @@ class GroundPages {
     /// what is still missing, but not on what was seen before.
     const PageTable& table() const { return table_; }
     const std::vector<PageTable::Resident>& shown() const { return shown_; }
-    /// Is any post of the page in a slot sea?
-    bool has_sea(int slot) const { return has_sea_[static_cast<std::size_t>(slot)]; }
-    /// Is any post of it not?
-    bool has_land(int slot) const { return has_land_[static_cast<std::size_t>(slot)]; }
+    /// Of the page in a slot.
+    const PageSea& sea(int slot) const { return sea_[static_cast<std::size_t>(slot)]; }
     /// Has the table changed since this was last asked?
     bool table_changed() { return std::exchange(table_changed_, false); }
 
@@ -72,7 +71,7 @@ class GroundPages {
     PageBounds bounds_;
     Fill fill_;
     PageSlots slots_;
-    std::vector<bool> has_sea_, has_land_;  // by slot
+    std::vector<PageSea> sea_;  // by slot
     PageTable table_;
     bool table_changed_ = true;
     std::vector<PageTable::Resident> shown_;

@@ -35,9 +35,11 @@ double ms_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// `off` is the grid that fills what the others leave.
 std::string_view vertex_shader(OceanKind kind) {
     switch (kind) {
         case OceanKind::radial:
+        case OceanKind::off:
             return "ocean_radial.vert";
         case OceanKind::projected:
             return "ocean_projected.vert";
@@ -49,6 +51,7 @@ std::string_view vertex_shader(OceanKind kind) {
 std::unique_ptr<lod::OceanMesh> make_mesh(OceanKind kind) {
     switch (kind) {
         case OceanKind::radial:
+        case OceanKind::off:
             return std::make_unique<lod::RadialGrid>();
         case OceanKind::projected:
             return std::make_unique<lod::ProjectedMesh>();
@@ -72,8 +75,9 @@ void OceanFigures::add(const OceanFigures& other) {
     draw_ms += other.draw_ms;
 }
 
-OceanKind chosen(OceanKind kind) {
-    return kind == OceanKind::automatic ? OceanKind::geoclipmap : kind;
+OceanKind chosen(OceanKind kind, const lod::SeaView& sea, const lod::SeaSpacing& spacing) {
+    if (kind != OceanKind::automatic) return kind;
+    return lod::ProjectedMesh::serves(sea, spacing) ? OceanKind::projected : OceanKind::radial;
 }
 
 Ocean::Ocean(const lod::Terrain& terrain, const GroundTextures& ground, const EyeHeight* heights)
@@ -82,6 +86,10 @@ Ocean::Ocean(const lod::Terrain& terrain, const GroundTextures& ground, const Ey
       heights_(heights),
       middle_(middle_of(terrain.frame())),
       water_(terrain.frame(), ground.top()) {}
+
+double Ocean::wave_height(const glm::dvec2& at, double time_s) const {
+    return map_ ? map_->height(at, time_s) : waves_.height(at, time_s);
+}
 
 double Ocean::sea_height(geo::LatLon place) const {
     return heights_ ? heights_->undulation(place).m : 0;
@@ -92,8 +100,7 @@ void Ocean::update_water() {
     if (pages.shown() == water_of_) return;
     water_of_ = pages.shown();
     std::vector<WaterPages::Shown> shown;
-    for (const auto& [page, slot] : water_of_)
-        shown.push_back({page, pages.has_sea(slot), pages.has_land(slot)});
+    for (const auto& [page, slot] : water_of_) shown.push_back({page, &pages.sea(slot)});
     water_.fill(shown);
 }
 
@@ -135,7 +142,14 @@ lod::Water Ocean::water_in(const lod::SeaView& sea, const glm::dvec2& centre, do
     return all.land ? lod::Water::shore : lod::Water::open;
 }
 
-void Ocean::update_waves(const lod::Wind& wind) {
+void Ocean::update_waves(const OceanSettings& settings) {
+    if (settings.map != map_) {
+        map_ = settings.map;
+        map_error_.reset();
+        map_texture_.reset();
+        if (map_) map_error_.emplace(*map_);
+    }
+    const lod::Wind& wind = settings.wind;
     const auto same = [](const lod::Wind& a, const lod::Wind& b) {
         return a.speed_m_s == b.speed_m_s && a.from == b.from && a.fetch_m == b.fetch_m;
     };
@@ -146,7 +160,16 @@ void Ocean::update_waves(const lod::Wind& wind) {
     ripples_baked_ = false;
 }
 
+lod::SeaSpacing Ocean::spacing(const lod::View& view, double error_px) const {
+    constexpr double kRadius = 6371e3;
+    const double focal_px = lod::height_px(view);
+    if (!map_) return {waves_, focal_px, error_px, kRadius};
+    return {[this](double spacing_m) { return map_error_->at(spacing_m); }, map_error_->longest_m(), focal_px,
+            error_px, kRadius};
+}
+
 void Ocean::make_objects() {
+    if (map_ && !map_texture_) map_texture_.emplace(*map_);
     if (block_) return;
     block_ = GlBuffer::create();
     glNamedBufferStorage(block_.name(), sizeof(OceanBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
@@ -236,17 +259,21 @@ Result<GlName> Ocean::program(const Variant& variant) {
     if (const auto known = programs_.find(variant); known != programs_.end()) return known->second.name();
     std::string defines =
         fmt::format("#define TOP_LEVEL {}\n", ground_->top()) + shore_defines(ground_->facts());
+    if (variant.fill) defines += "#define FILL\n";
+    if (ground_->facts().has_voids) defines += "#define VOIDS\n";
     if (variant.shore) defines += "#define SHORE\n";
     if (variant.sky) defines += "#define SKY\n";
     if (variant.probe) defines += "#define PROBE\n";
+    if (variant.map) defines += "#define WAVE_MAP\n";
     if (!ground_->facts().sea_is_level) defines += "#define BED\n";
     if (const auto* polar = terrain_->positions().polar())
         defines += fmt::format("#define POLE {:.1f}\n", polar->plane().pole);
     std::string common;
     for (const char* file : {"frame.glsl", "ground.glsl", "shore.glsl", "ocean.glsl"})
         common += shader_text(file);
-    const std::string vertex =
-        std::string(shader_text(vertex_shader(variant.kind))) + std::string(shader_text("ocean.vert"));
+    std::string vertex(shader_text(vertex_shader(variant.kind)));
+    if (variant.map) vertex += shader_text("wave_map.glsl");
+    vertex += shader_text("ocean.vert");
     auto made = build_program({.name = "ocean",
                                .defines = std::move(defines),
                                .common = common,
@@ -260,82 +287,132 @@ Result<GlName> Ocean::program(const Variant& variant) {
 Result<OceanFigures> Ocean::draw(const lod::View& view, const OceanSettings& settings, const Look& look) {
     const auto start = std::chrono::steady_clock::now();
     OceanFigures figures;
+    last_.shore = false;
     if (settings.kind == OceanKind::off || !ground_->facts().has_sea) return figures;
     const geo::Geodetic& eye = view.camera().eye;
     const geo::LatLon place{eye.lat, eye.lon};
     const double sea_h_m = sea_height(place);
     const double eye_m = eye.h.m - sea_h_m;
-    update_waves(settings.wind);
-    const double radius_m = 6371e3;
-    const lod::SeaSpacing spacing(waves_, lod::height_px(view), settings.error_px, radius_m);
+    update_waves(settings);
+    const lod::SeaSpacing spacing = this->spacing(view, settings.error_px);
     // Where no wave is to be seen, the chart may follow the eye: it is undistorted there.
-    const bool waves_seen = !spacing.flat_from(std::max(std::abs(eye_m) - waves_.crest_m(), 0.1));
+    const bool waves_seen = !spacing.flat_from(std::max(std::abs(eye_m) - crest_m(), 0.1));
     chart_.emplace(waves_seen ? lod::sea_chart_anchor(middle_, place) : place);
-    const lod::SeaView sea(view, *chart_, sea_h_m, waves_.crest_m());
+    const lod::SeaView sea(view, *chart_, sea_h_m, crest_m(),
+                           wave_height(chart_->at(place), settings.time_s));
 
     update_water();
     const lod::WaterIn has_water = [&](const glm::dvec2& centre, double radius) {
         return water_in(sea, centre, radius);
     };
     if (has_water({0, 0}, sea.reach_m) == lod::Water::none) return figures;
-    const OceanKind kind = chosen(settings.kind);
+    const OceanKind kind = chosen(settings.kind, sea, spacing);
     lod::OceanPicture picture;
     Buffers& drawn = buffers(kind);
     drawn.mesh->arrange(sea, spacing, has_water, picture);
-    std::vector<glm::vec4> copies;
-    for (const auto& [open, shore] : picture.copies) {
-        copies.insert(copies.end(), open.begin(), open.end());
-        copies.insert(copies.end(), shore.begin(), shore.end());
-    }
-    if (copies.empty()) return figures;
+    const bool any = std::any_of(picture.copies.begin(), picture.copies.end(), [](const auto& copies) {
+        return !copies.open.empty() || !copies.shore.empty();
+    });
+    if (!any) return figures;
 
     make_objects();
     bake_ripples(settings.time_s);
     update_undulation(sea, sea_h_m);
-    const auto open_water = program({kind, false, look.sky, look.probe});
+    const auto open_water = program({kind, false, look.sky, look.probe, waves_seen && map_, false});
     if (!open_water) return open_water.error();
-    const auto shore = program({kind, true, look.sky, look.probe});
+    const auto shore = program({kind, true, look.sky, look.probe, waves_seen && map_, false});
     if (!shore) return shore.error();
-    const OceanBlock block = ocean_block(sea, sea_h_m, kUndulationReach, waves_seen ? waves_ : lod::Waves(),
-                                         *ripples_, *terrain_, ground_->facts(), settings, look.sun);
+    const OceanBlock block =
+        ocean_block(sea, sea_h_m, kUndulationReach, waves_seen && !map_ ? waves_ : lod::Waves(), *ripples_,
+                    *terrain_, ground_->facts(), settings, look.sun);
     glNamedBufferSubData(block_.name(), 0, sizeof(block), &block);
-    glNamedBufferSubData(mesh_block_.name(), 0,
-                         static_cast<GLsizeiptr>(picture.numbers.size() * sizeof(glm::vec4)),
-                         picture.numbers.data());
-    glNamedBufferData(drawn.copies.name(), static_cast<GLsizeiptr>(copies.size() * sizeof(glm::vec4)),
-                      copies.data(), GL_STREAM_DRAW);
+    upload(picture, drawn);
     figures.kind = kind;
     figures.arrange_ms = ms_since(start);
 
-    glBindVertexArray(drawn.array.name());
-    glBindBufferBase(GL_UNIFORM_BUFFER, kOceanBinding, block_.name());
-    glBindBufferBase(GL_UNIFORM_BUFFER, kMeshBinding, mesh_block_.name());
-    ground_->bind();
-    glBindTextureUnit(kUndulationUnit, undulation_.name());
-    glBindTextureUnit(kRipplesUnit, ripple_tiles_.name());
+    last_.variant = {OceanKind::off, true, look.sky, look.probe, false, true};
+    last_.shore = false;
+    for (const auto& copies : picture.copies) last_.shore = last_.shore || !copies.shore.empty();
+    if (last_.shore) {
+        const lod::SeaSpacing still(lod::Waves(), lod::height_px(view), 0.5, sea.radius_m);
+        lod::RadialGrid().arrange(
+            sea, still, [](const glm::dvec2&, double) { return lod::Water::shore; }, last_.flat);
+    }
+    if (map_) map_texture_->update(*map_, sea.nadir, settings.time_s);
+    bind(drawn);
     // Ground at the sea's own level loses.
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(0, 16);
     std::size_t first = 0;
-    const auto draw_copies = [&](const Buffers::Part& part, std::size_t count, GlName with) {
+    const auto add = [&](const Buffers::Part& part, std::size_t count, GlName with) {
         if (count == 0) return;
         glUseProgram(with);
-        const auto* indices = reinterpret_cast<const void*>(static_cast<std::uintptr_t>(part.first_index) *
-                                                            sizeof(std::uint16_t));
-        glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, part.indices, GL_UNSIGNED_SHORT, indices,
-                                                      static_cast<GLsizei>(count), part.first_vertex,
-                                                      static_cast<GLuint>(first));
+        draw(part, count, first);
         first += count;
         ++figures.draw_calls;
         figures.triangles += count * static_cast<std::uint64_t>(part.indices) / 3;
         figures.vertices += count * static_cast<std::uint64_t>(part.vertices);
     };
     for (std::size_t i = 0; i < picture.copies.size(); ++i) {
-        draw_copies(drawn.parts[i], picture.copies[i].open.size(), *open_water);
-        draw_copies(drawn.parts[i], picture.copies[i].shore.size(), *shore);
+        add(drawn.parts[i], picture.copies[i].open.size(), *open_water);
+        add(drawn.parts[i], picture.copies[i].shore.size(), *shore);
     }
     glDisable(GL_POLYGON_OFFSET_FILL);
     return figures;
+}
+
+void Ocean::bind(const Buffers& buffers) const {
+    glBindVertexArray(buffers.array.name());
+    glBindBufferBase(GL_UNIFORM_BUFFER, kOceanBinding, block_.name());
+    glBindBufferBase(GL_UNIFORM_BUFFER, kMeshBinding, mesh_block_.name());
+    ground_->bind();
+    glBindTextureUnit(kUndulationUnit, undulation_.name());
+    glBindTextureUnit(kRipplesUnit, ripple_tiles_.name());
+    if (map_) map_texture_->bind();
+}
+
+void Ocean::upload(const lod::OceanPicture& picture, const Buffers& to) const {
+    std::vector<glm::vec4> copies;
+    for (const auto& [open, shore] : picture.copies) {
+        copies.insert(copies.end(), open.begin(), open.end());
+        copies.insert(copies.end(), shore.begin(), shore.end());
+    }
+    glNamedBufferData(to.copies.name(), static_cast<GLsizeiptr>(copies.size() * sizeof(glm::vec4)),
+                      copies.data(), GL_STREAM_DRAW);
+    glNamedBufferSubData(mesh_block_.name(), 0,
+                         static_cast<GLsizeiptr>(picture.numbers.size() * sizeof(glm::vec4)),
+                         picture.numbers.data());
+}
+
+void Ocean::draw(const Buffers::Part& part, std::size_t count, std::size_t first) {
+    const auto* indices =
+        reinterpret_cast<const void*>(static_cast<std::uintptr_t>(part.first_index) * sizeof(std::uint16_t));
+    glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, part.indices, GL_UNSIGNED_SHORT, indices,
+                                                  static_cast<GLsizei>(count), part.first_vertex,
+                                                  static_cast<GLuint>(first));
+}
+
+Result<int> Ocean::fill() {
+    if (!last_.shore) return 0;
+    const auto with = program(last_.variant);
+    if (!with) return with.error();
+    Buffers& flat = buffers(OceanKind::off);
+    upload(last_.flat, flat);
+    bind(flat);
+    glUseProgram(*with);
+    // Behind all that has been drawn, in front of what has not.
+    glDepthRange(0, 1e-20);
+    int calls = 0;
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < last_.flat.copies.size(); ++i) {
+        const std::size_t count = last_.flat.copies[i].shore.size();
+        if (count == 0) continue;
+        draw(flat.parts[i], count, first);
+        first += count;
+        ++calls;
+    }
+    glDepthRange(0, 1);
+    return calls;
 }
 
 }  // namespace relevo::viewer

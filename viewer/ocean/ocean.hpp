@@ -10,6 +10,7 @@
 #include "geo/result.hpp"
 #include "lod/ocean/ocean_mesh.hpp"
 #include "lod/ocean/sea_spacing.hpp"
+#include "lod/ocean/wave_map_error.hpp"
 #include "lod/ocean/waves.hpp"
 #include "lod/terrain.hpp"
 #include "lod/view.hpp"
@@ -18,6 +19,7 @@
 #include "viewer/ocean/ocean_settings.hpp"
 #include "viewer/ocean/ripples.hpp"
 #include "viewer/ocean/water_pages.hpp"
+#include "viewer/ocean/wave_map_texture.hpp"
 #include "viewer/sun_setting.hpp"
 
 namespace relevo::viewer {
@@ -43,13 +45,18 @@ class Ocean {
     struct Look {
         SunSetting sun;
         bool sky = true;  ///< haze in the distance
-        bool probe =
-            false;  ///< instead of colours: place in the chart from the nadir, height of the waves, 2
+        /// Instead of colours: place in the chart from the nadir, height of the waves, 2.
+        bool probe = false;
     };
     /// Draws what of the sea is in view into what is current, with depth. \pre the frame's uniforms are bound
     Result<OceanFigures> draw(const lod::View& view, const OceanSettings& settings, const Look& look);
 
-    /// The waves that the last picture had, and the chart that its probe speaks of.
+    /// Draws water into what neither the sea nor the ground has been drawn into, but the data has one of
+    /// them: at the waterline each is asked about the place that it has itself on a ray, and both may say
+    /// that it is the other's. To be called after the ground has been drawn. \return draw calls
+    Result<int> fill();
+
+    /// The wind's waves in the last picture, where it had no map, and the chart that its probe speaks of.
     const lod::Waves& waves() const { return waves_; }
     const std::optional<lod::SeaChart>& chart() const { return chart_; }
 
@@ -68,16 +75,22 @@ class Ocean {
     };
     struct Variant {
         OceanKind kind;
-        bool shore, sky, probe;
+        bool shore, sky, probe, map, fill;
         friend auto operator<=>(const Variant&, const Variant&) = default;
     };
 
     lod::Water water_in(const lod::SeaView& sea, const glm::dvec2& centre, double radius_m) const;
     void update_water();
-    void update_waves(const lod::Wind& wind);
+    void update_waves(const OceanSettings& settings);
+    double crest_m() const { return map_ ? map_->crest_m() : waves_.crest_m(); }
+    lod::SeaSpacing spacing(const lod::View& view, double error_px) const;
     void update_undulation(const lod::SeaView& sea, double sea_h_m);
     double sea_height(geo::LatLon place) const;
+    double wave_height(const glm::dvec2& at, double time_s) const;
     Buffers& buffers(OceanKind kind);
+    void upload(const lod::OceanPicture& picture, const Buffers& to) const;
+    void bind(const Buffers& buffers) const;
+    static void draw(const Buffers::Part& part, std::size_t count, std::size_t first);
     Result<GlName> program(const Variant& variant);
     void make_objects();
     void bake_ripples(double time_s);
@@ -91,6 +104,9 @@ class Ocean {
 
     std::optional<lod::Wind> wind_;
     lod::Waves waves_;
+    std::shared_ptr<const lod::WaveMap> map_;  // instead of them
+    std::optional<lod::WaveMapError> map_error_;
+    std::optional<WaveMapTexture> map_texture_;
     std::optional<Ripples> ripples_;
     double ripples_time_s_ = 0;
     bool ripples_baked_ = false;
@@ -98,11 +114,19 @@ class Ocean {
 
     std::map<OceanKind, Buffers> buffers_;
     std::map<Variant, GlProgram> programs_;
+    /// Of the last picture, for `fill`.
+    struct {
+        Variant variant;
+        bool shore = false;  // was there any?
+        lod::OceanPicture flat;
+    } last_;
     GlBuffer block_, mesh_block_;
     GlTexture undulation_, ripple_tiles_;
 };
 
-/// The mesh that `automatic` stands for.
-OceanKind chosen(OceanKind kind);
+/// The mesh that `automatic` stands for: the projected grid wherever it keeps to the spacing, for it spends
+/// vertices where pixels are; along the horizon, low over the sea, where its rows are too far apart, the
+/// radial one, which needs fewer vertices than the geoclipmap (docs/ocean.md has the table).
+OceanKind chosen(OceanKind kind, const lod::SeaView& sea, const lod::SeaSpacing& spacing);
 
 }  // namespace relevo::viewer

@@ -87,13 +87,15 @@ Result<ProbePicture> OceanProbe::draw(Renderer& renderer, const lod::View& view,
             const auto& [east, north, wave, what] =
                 read[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
                      static_cast<std::size_t>(x)];
-            picture.pixels.push_back({what > 1.5f   ? What::sea
-                                      : what > 0.5f ? What::ground
-                                                    : What::nothing,
-                                      nadir + glm::dvec2(east, north), static_cast<double>(wave)});
+            picture.pixels.push_back({static_cast<What>(std::lround(what)), nadir + glm::dvec2(east, north),
+                                      static_cast<double>(wave)});
         }
     }
     return picture;
+}
+
+double TrueSea::wave_m(const glm::dvec2& at, double time_s, double water_m) const {
+    return map ? map->height(at, time_s, 0, water_m) : waves->height(at, time_s, water_m);
 }
 
 double TrueSea::level_m(geo::LatLon place) const {
@@ -112,7 +114,7 @@ SeaError measure_sea_error(const ProbePicture& picture, const TrueSea& sea) {
             const geo::LatLon place = picture.chart->place(pixel.place);
             const double depth_m = sea.depth_m(place);
             if (std::isnan(depth_m)) continue;
-            const double wave_m = sea.waves->height(pixel.place, picture.time_s, depth_m);
+            const double wave_m = sea.wave_m(pixel.place, picture.time_s, depth_m);
             const Seen seen(picture.view, sea, place);
             const auto is = seen.pixel(picture.view, wave_m);
             const auto drawn = seen.pixel(picture.view, pixel.wave_m);
@@ -294,7 +296,8 @@ std::vector<glm::ivec2> HoleFinder::holes(const ProbePicture& picture) {
     const geo::Geodetic& eye = picture.view.camera().eye;
     const geo::LatLon nadir{eye.lat, eye.lon};
     const double eye_m = eye.h.m - sea_.level_m(nadir);
-    const double crest_m = picture.chart ? sea_.waves->height(picture.chart->at(nadir), picture.time_s) : 0;
+    constexpr double kDeep = std::numeric_limits<double>::infinity();
+    const double crest_m = picture.chart ? sea_.wave_m(picture.chart->at(nadir), picture.time_s, kDeep) : 0;
     if (std::abs(eye_m) < std::abs(crest_m) && (eye_m > 0) == (crest_m > 0)) return found;
     for (int y = 0; y < picture.height(); ++y) {
         for (int x = 0; x < picture.width(); ++x) {

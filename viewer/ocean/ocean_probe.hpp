@@ -13,6 +13,7 @@
 
 #include "geo/result.hpp"
 #include "lod/ocean/sea_chart.hpp"
+#include "lod/ocean/wave_map.hpp"
 #include "lod/ocean/waves.hpp"
 #include "lod/terrain.hpp"
 #include "lod/view.hpp"
@@ -29,7 +30,12 @@ class Renderer;
 
 /// What is at a picture's pixels, as it was drawn.
 struct ProbePicture {
-    enum class What : std::uint8_t { nothing, ground, sea };
+    enum class What : std::uint8_t {
+        nothing,
+        ground,
+        sea,
+        filled,  ///< by Ocean::fill
+    };
     struct Pixel {
         What what = What::nothing;
         glm::dvec2 place{0};  ///< of the sea: in the chart
@@ -68,13 +74,16 @@ class OceanProbe {
 
 /// The sea as it ought to be.
 struct TrueSea {
-    const lod::Waves* waves;
+    const lod::Waves* waves = nullptr;
+    const lod::WaveMap* map = nullptr;   ///< instead of the waves, where there is one
     const EyeHeight* heights = nullptr;  ///< null: the sea is at the ellipsoid
     /// Of the water at a place, metres; NaN where it is not known: there nothing is compared.
     std::function<double(geo::LatLon)> depth_m = [](geo::LatLon) {
         return std::numeric_limits<double>::infinity();
     };
 
+    /// Of its waves above its level, at a place of the chart, over water so deep.
+    double wave_m(const glm::dvec2& at, double time_s, double water_m) const;
     /// Of its level above the ellipsoid.
     double level_m(geo::LatLon place) const;
 };

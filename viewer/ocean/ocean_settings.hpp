@@ -1,8 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <string_view>
 
 #include "geo/result.hpp"
+#include "lod/ocean/wave_map.hpp"
 #include "lod/ocean/wind_sea.hpp"
 
 namespace relevo::viewer {
@@ -22,6 +24,8 @@ Result<OceanKind> parse_ocean(std::string_view text);
 struct OceanSettings {
     OceanKind kind = OceanKind::automatic;
     lod::Wind wind{.speed_m_s = 6, .from = geo::Degrees{300}};
+    /// Waves of a map instead of the wind's, which then only roughens them. Null: the wind's.
+    std::shared_ptr<const lod::WaveMap> map = nullptr;
     double time_s = 0;    ///< of the waves
     double error_px = 1;  ///< most that the drawn surface is off the waves
 };

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "viewer/ground/page.hpp"
+#include "viewer/ground/page_sea.hpp"
 
 namespace relevo::viewer {
 
@@ -13,11 +13,10 @@ class WaterPages {
   public:
     WaterPages(const geo::GridFrame& frame, int top);
 
-    /// A page that is drawn from, and whether any of its posts is sea.
+    /// A page that is drawn from.
     struct Shown {
         Page page;
-        bool sea;
-        bool land;  ///< is any not?
+        const PageSea* sea;  ///< must outlive the next `in`
     };
     /// \param shown  parents before their children
     void fill(const std::vector<Shown>& shown);
@@ -26,11 +25,8 @@ class WaterPages {
     struct Rectangle {
         double west, north, east, south;
     };
-    /// Is any sea there, any land? Parts of pages count whole.
-    struct Content {
-        bool sea = false;
-        bool land = false;
-    };
+    /// Is any sea there, any land? Parts of pages (page_sea.hpp) count whole.
+    using Content = PageSea::Part;
     Content in(const Rectangle& cells) const {
         Content content;
         add(cells, Page{top_, 0, 0}, content);
@@ -39,9 +35,8 @@ class WaterPages {
 
   private:
     struct State {
-        bool shown = false;
-        Content own;    // of the page itself
-        Content below;  // of it and of all pages below it that are shown
+        const PageSea* own = nullptr;  // of the page itself; null: it is not there
+        Content below;                 // of it and of all pages below it that are shown
     };
     void add(const Rectangle& cells, const Page& page, Content& content) const;
     std::size_t index(const Page& page) const;

@@ -48,3 +48,9 @@ PagePlace page_place(vec2 grid, ivec2 cell, float apart) {
 vec4 at_place(sampler2DArray pages, PagePlace place) {
     return mix(textureLod(pages, place.fine, 0.0), textureLod(pages, place.coarse, 0.0), place.blend);
 }
+
+// May the cell be drawn? Edges of voids are to the pixel in both directions: the level is that of the gentlest.
+bool is_whole(ivec2 cell, float apart) {
+    uint entry = page_entry(cell, rough_log2(apart) + kSharper);
+    return texelFetch(cells, ivec3((cell >> (entry >> 24)) & 255, entry & 4095u), 0).r != 0u;
+}

@@ -36,7 +36,12 @@ void main() {
     PagePlace place = page_place(grid, cell, max(steps.x, steps.y));
 #endif
 #ifdef PROBE
-    colour = vec4(water.at, water.wave.z, 2.0);
+#ifdef FILL
+    const float what = 3.0;
+#else
+    const float what = 2.0;
+#endif
+    colour = vec4(water.at, water.wave.z, what);
 #else
     // A texel is a 128th of a tile of 2^layer metres.
     vec2 wide = max(abs(dFdx(water.at)), abs(dFdy(water.at)));
@@ -97,7 +102,16 @@ void main() {
     colour = vec4(min(shown, vec3(1.0)), 1.0);
 #endif
 #ifdef SHORE
-    // A little more than the ground leaves, lest both leave a pixel to the other.
-    if (water_at(place) < -0.1) discard;
+    // A little more than the ground leaves.
+    bool is_land = water_at(place) < -0.1;
+#ifdef FILL
+    // What neither has drawn. But beyond the data there is no ground, and voids stay empty.
+    vec2 away = abs(turned(water.grid) - grid);
+    is_land = is_land && max(away.x, away.y) > 0.0;
+#ifdef VOIDS
+    if (!is_whole(cell, max(steps.x, steps.y))) discard;
+#endif
+#endif
+    if (is_land) discard;
 #endif
 }

@@ -33,11 +33,13 @@ vec3 water_over(vec3 bed, float depth, float sine) {
 
 float power_5(float x) { return x * x * x * x * x; }
 
-// Beyond the data the sea goes on as it is on the data's border.
-vec2 in_data(vec2 grid) {
+// The same place, on the turn of longitudes that the data is on.
+vec2 turned(vec2 grid) {
 #ifndef POLE
     float turn = 6.28318530718 * ocean.grid.z;
     grid.x -= turn * round((grid.x - 0.5 * frame.grid.x) / turn);
 #endif
-    return clamp(grid, vec2(0.0), frame.grid.xy);
+    return grid;
 }
+// Beyond the data the sea goes on as it is on the data's border.
+vec2 in_data(vec2 grid) { return clamp(turned(grid), vec2(0.0), frame.grid.xy); }

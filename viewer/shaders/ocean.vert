@@ -100,14 +100,18 @@ float depth_at(vec2 grid, float spacing) {
     if (ocean.depth.y < 0.5) return -ground_height(at);
     float shore = 0.0;
     float reach = 1.0;
+    float open_sea = 0.0;
     for (int level = 0; level < 6; ++level, reach *= 2.0) {
         if (reach < 0.5 * apart && level < 5) continue;  // the first counts for those before
         float share = at_place(sea, page_place(inside, cell, reach)).r;
         shore += (shore > 0.0 ? 0.5 : 1.0) * reach * clamp(2.0 * share - 1.0, 0.0, 1.0);
+        open_sea = share;
     }
-    return 0.01 * ocean.depth.x * shore;
+    // Where land is farther than is looked, waves feel no bed.
+    return 0.01 * ocean.depth.x * shore + 1000.0 * smoothstep(0.9, 1.0, open_sea);
 }
 
+#ifndef WAVE_MAP  // wave_map.glsl has its own
 // Slope along the chart's axes and height, of the waves that vertices so far apart carry in water so deep
 // (lod/ocean/wave_error.hpp, waves.hpp).
 vec3 waves_at(vec2 at, float spacing, float depth) {
@@ -125,11 +129,15 @@ vec3 waves_at(vec2 at, float spacing, float depth) {
     return sum;
 }
 
+// Spacing of a mesh whose waves are all that this one has: what is shorter are ripples.
+float carried_spacing(float spacing) { return spacing; }
+#endif
+
 void main() {
     vec3 here = place();
     Sea sea = sea_at(here.xy);
     water.at = here.xy;
-    water.spacing = here.z;
+    water.spacing = carried_spacing(here.z);
     water.up = ocean.nadir_up.xyz + sea.turn;
     water.grid = grid_at(sea.turn);
     float depth = depth_at(water.grid, here.z);

@@ -50,12 +50,6 @@ float on_edge(vec3 barycentric) {
 }
 #endif
 
-// May the cell be drawn? Edges of voids are to the pixel in both directions: the level is that of the gentlest.
-bool is_whole(ivec2 cell, float apart) {
-    uint entry = page_entry(cell, rough_log2(apart) + kSharper);
-    return texelFetch(cells, ivec3((cell >> (entry >> 24)) & 255, entry & 4095u), 0).r != 0u;
-}
-
 void main() {
     // All that needs the neighbours' values comes before the discard.
     vec2 x = abs(dFdx(surface.grid));

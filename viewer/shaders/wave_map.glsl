@@ -20,7 +20,7 @@ vec4 spline_slopes(float t) {
 
 // Slope, a tile to 1, and height of a level. Bilinear texels would be fewer, but their weights have 8 bits.
 vec3 level_at(vec2 place, int level) {
-    int side = textureSize(wave_map, level).x;
+    int side = textureSize(wave_map, 0).x >> level;  // (of `level` llvmpipe would ask for one vertex of eight)
     vec2 post = place * float(side) - 0.5;
     ivec2 first = ivec2(floor(post)) - 1;
     vec2 t = fract(post);
@@ -57,5 +57,5 @@ vec3 waves_at(vec2 at, float spacing, float depth) {
                                copy_at(map.origins[1], map.turns[1].xy, at, spacing, depth));
 }
 
-// A mesh finer than the map carries no waves that the map has not: those of less than 4 of its posts are ripples' still.
+// Spacing of a mesh whose waves are all that this one has: a map has none of less than 4 of its posts, 4.5 times this.
 float carried_spacing(float spacing) { return max(spacing, 1.8 / map.origins[0].z); }
