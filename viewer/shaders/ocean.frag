@@ -48,28 +48,30 @@ void main() {
     float layer = clamp(rough_log2(max(wide.x, wide.y)) + 6.5, 0.0, float(kRippleLayers) - 1.001);
     float finer = 1.0 - fract(layer);
     vec2 seen = ripple_slope(int(layer)) * finer + ripple_slope(int(layer) + 1) * (1.0 - finer);
-    // Waves of different layers have nothing to do with each other: their variances add.
-    seen *= inversesqrt(finer * finer + (1.0 - finer) * (1.0 - finer));
+    // Waves of different layers have nothing to do with each other: their variances add. Along the horizon a pixel is
+    // long, and what tiles repeat in would be seen.
+    vec3 to_eye = -normalize(water.offset);
+    float flat_facing = dot(water.up, to_eye);
+    seen *= inversesqrt(finer * finer + (1.0 - finer) * (1.0 - finer)) * (0.2 + 0.8 * smoothstep(0.0, 0.3, flat_facing));
     vec2 slope = water.wave.xy + seen;
     float rough = max(ocean.slopes.x - dot(seen, seen), 0.25 * ocean.slopes.x) + 1e-5;
     vec3 normal = normalize(water.up - slope.x * ocean.nadir_east.xyz - slope.y * ocean.nadir_north.xyz);
 
-    vec3 to_eye = -normalize(water.offset);
     float day = dimmed(ocean.sun.w);
     float facing = dot(normal, to_eye);
-    float flat_facing = dot(water.up, to_eye);
     // Waves that turn away are hidden by those that do not: at grazing angles a rough sea is steeper than its mean.
     float steepness = max(max(facing, flat_facing * 0.5), 0.0) + 0.45 * sqrt(rough);
     float mirrored = 0.02 + 0.98 * power_5(1.0 - min(steepness, 1.0));
 
     vec3 body = water.body.rgb;
 #ifdef SHORE
-    float depth = water.wave.w;
     vec3 bed = kSand;
-#ifdef BED
+#ifndef BED
+    float depth = depth_at(grid, max(steps.x, steps.y) * ocean.depth.x);
+#else
     vec4 ground = at_place(posts, place);
     ground /= max(ground.a, 1e-3);
-    depth = -(ground.z * SCENE_HALF + SCENE_MIDDLE);
+    float depth = -(ground.z * SCENE_HALF + SCENE_MIDDLE);
     bed *= clamp(0.75 + 0.75 * (ground.y - ground.x), 0.3, 1.3);  // light from the north-west, as on the land
 #endif
     depth += water.wave.z;
@@ -105,7 +107,8 @@ void main() {
     // A little more than the ground leaves.
     bool is_land = water_at(place) < -0.1;
 #ifdef FILL
-    // What neither has drawn. But beyond the data there is no ground, and voids stay empty.
+    // What neither has drawn at a shore. But beyond the data there is no ground, and voids stay empty.
+    if (at_place(sea, page_place(grid, cell, 4.0 * max(max(steps.x, steps.y), 1.0))).r <= 0.0) discard;
     vec2 away = abs(turned(water.grid) - grid);
     is_land = is_land && max(away.x, away.y) > 0.0;
 #ifdef VOIDS

@@ -43,3 +43,20 @@ vec2 turned(vec2 grid) {
 }
 // Beyond the data the sea goes on as it is on the data's border.
 vec2 in_data(vec2 grid) { return clamp(turned(grid), vec2(0.0), frame.grid.xy); }
+
+// Depth of the water, metres, from posts so far apart (metres). Where the data has no bed under its sea: a metre for every
+// twenty from the shore, as far as coarser and coarser posts tell how far that is; farther out waves feel no bed.
+float depth_at(vec2 inside, float metres) {
+    ivec2 cell = cell_at(inside);
+    float apart = max(metres / ocean.depth.x, 1e-3);
+    if (ocean.depth.y < 0.5) return -ground_height(page_place(inside, cell, apart));
+    float shore = 0.0;
+    float reach = 1.0;
+    float open_sea = 0.0;
+    for (int level = 0; level < 4; ++level, reach *= 2.0) {
+        if (reach < 0.5 * apart && level < 3) continue;  // the first counts for those before
+        open_sea = at_place(sea, page_place(inside, cell, reach)).r;
+        shore += (shore > 0.0 ? 0.5 : 1.0) * reach * clamp(2.0 * open_sea - 1.0, 0.0, 1.0);
+    }
+    return 0.05 * ocean.depth.x * shore + 1000.0 * smoothstep(0.9, 1.0, open_sea);
+}

@@ -90,27 +90,6 @@ vec2 grid_at(vec3 turn) {
 #endif
 }
 
-// Depth of the water, metres. Where the data has no bed under its sea: a metre for every hundred from the shore, as far
-// as coarser and coarser posts tell how far that is.
-float depth_at(vec2 grid, float spacing) {
-    vec2 inside = in_data(grid);
-    ivec2 cell = cell_at(inside);
-    float apart = max(spacing / ocean.depth.x, 1e-3);
-    PagePlace at = page_place(inside, cell, apart);
-    if (ocean.depth.y < 0.5) return -ground_height(at);
-    float shore = 0.0;
-    float reach = 1.0;
-    float open_sea = 0.0;
-    for (int level = 0; level < 6; ++level, reach *= 2.0) {
-        if (reach < 0.5 * apart && level < 5) continue;  // the first counts for those before
-        float share = at_place(sea, page_place(inside, cell, reach)).r;
-        shore += (shore > 0.0 ? 0.5 : 1.0) * reach * clamp(2.0 * share - 1.0, 0.0, 1.0);
-        open_sea = share;
-    }
-    // Where land is farther than is looked, waves feel no bed.
-    return 0.01 * ocean.depth.x * shore + 1000.0 * smoothstep(0.9, 1.0, open_sea);
-}
-
 #ifndef WAVE_MAP  // wave_map.glsl has its own
 // Slope along the chart's axes and height, of the waves that vertices so far apart carry in water so deep
 // (lod/ocean/wave_error.hpp, waves.hpp).
@@ -140,7 +119,7 @@ void main() {
     water.spacing = carried_spacing(here.z);
     water.up = ocean.nadir_up.xyz + sea.turn;
     water.grid = grid_at(sea.turn);
-    float depth = depth_at(water.grid, here.z);
+    float depth = depth_at(in_data(water.grid), here.z);
     vec3 wave = waves_at(here.xy, here.z, max(depth, 0.0));
     water.wave = vec4(wave, depth);
     water.offset = sea.offset + water.up * wave.z;
