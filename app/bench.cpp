@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <csignal>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +14,7 @@
 #include "app/command.hpp"
 #include "app/view_flags.hpp"
 #include "viewer/bench/bench_report.hpp"
+#include "viewer/bench/ocean_bench.hpp"
 #include "viewer/bench/result_folder.hpp"
 #include "viewer/default_flight.hpp"
 #include "viewer/numbers.hpp"
@@ -23,7 +26,7 @@ namespace {
 struct BenchFlags {
     std::string scene;
     std::string output;
-    std::optional<std::string> flight, taus, methods;
+    std::optional<std::string> flight, taus, methods, ocean_at, ocean_rows;
     std::optional<int> frames, runs, error_every;
     bool quick = false;
     bool overwrite = false;
@@ -115,10 +118,36 @@ Result<viewer::BenchOptions> read_options(const BenchFlags& flags) {
     return options;
 }
 
+/// \param bench  what is measured of the ground
+Result<viewer::OceanBenchOptions> read_ocean(const BenchFlags& flags, const viewer::BenchOptions& bench) {
+    viewer::OceanBenchOptions ocean{.width = bench.width,
+                                    .height = bench.height,
+                                    .look = bench.look.ocean,
+                                    .place = {},
+                                    .tiles = bench.tiles};
+    if (flags.quick) {
+        ocean.errors_px = {1};
+        ocean.frames = 1;
+    }
+    if (flags.ocean_rows == "all")
+        take_all_rows(ocean);
+    else if (flags.ocean_rows && flags.ocean_rows != "usual")
+        return usage(fmt::format("--ocean-rows {}: usual or all", *flags.ocean_rows));
+    if (flags.ocean_at) {
+        const auto numbers = viewer::parse_numbers(*flags.ocean_at);
+        if (!numbers || numbers->size() != 2 || std::abs((*numbers)[0]) > 90 || std::abs((*numbers)[1]) > 360)
+            return usage(fmt::format("--ocean-at {}: expected LAT,LON in degrees", *flags.ocean_at));
+        ocean.place = {geo::Degrees{(*numbers)[0]}, geo::Degrees{(*numbers)[1]}};
+    }
+    return ocean;
+}
+
 Result<void> run(const BenchFlags& flags, const std::string& command) {
     // Everything that the command line got wrong is said before the scene is read.
     const auto options = read_options(flags);
     if (!options) return options.error();
+    const auto ocean = read_ocean(flags, *options);
+    if (!ocean) return ocean.error();
     if (auto fine = viewer::check_result_folder(flags.output, flags.overwrite); !fine) return fine;
     std::optional<viewer::FlightPath> flight;
     if (flags.flight) {
@@ -136,24 +165,25 @@ Result<void> run(const BenchFlags& flags, const std::string& command) {
         flight = std::move(*made);
     }
 
-    const auto result =
-        viewer::run_bench(*scene, heights, *flight, *options, progress_bar(flags.common, "flying"));
+    auto result = viewer::run_bench(*scene, heights, *flight, *options, progress_bar(flags.common, "flying"));
     if (!result) return result.error();
+    auto sea =
+        viewer::run_ocean_bench(*scene, heights, *ocean, progress_bar(flags.common, "measuring the sea"));
+    if (!sea) return sea.error();
+    result->ocean = std::move(*sea);
     const auto rows = viewer::summarize(*result);
     const viewer::BenchSubject subject{*scene,   *flight, flags.flight.value_or("made from the scene"),
                                        *options, command, RELEVO_VERSION};
     auto json = viewer::bench_json(subject, *result, rows);
     // Nobody is to find half a result: neither where writing fails, nor where Ctrl-C comes now.
     std::signal(SIGINT, SIG_IGN);
-    if (auto done =
-            viewer::write_result_folder(flags.output, {{"bench.json", json.dump(2) + "\n"},
-                                                       {"bench.csv", viewer::bench_csv(rows)},
-                                                       {"frames.csv", viewer::frames_csv(*result)},
-                                                       {"bench.html", bench_page(subject, *result, rows)},
-                                                       {"flight.txt", flight->to_text()}});
-        !done) {
-        return done;
-    }
+    std::map<std::string, std::string> files{{"bench.json", json.dump(2) + "\n"},
+                                             {"bench.csv", viewer::bench_csv(rows)},
+                                             {"frames.csv", viewer::frames_csv(*result)},
+                                             {"bench.html", bench_page(subject, *result, rows)},
+                                             {"flight.txt", flight->to_text()}};
+    if (!result->ocean.rows.empty()) files["ocean.csv"] = viewer::ocean_csv(result->ocean);
+    if (auto done = viewer::write_result_folder(flags.output, files); !done) return done;
     if (flags.common.json) {
         json["folder"] = flags.output;
         fmt::print("{}\n", json.dump(2));
@@ -198,6 +228,9 @@ void add_bench(CLI::App& program, Action& action) {
     add("--runs", flags->runs, "N", "How often everything is flown, in turns [3]");
     add("--error-every", flags->error_every, "N", "Measure the error of each N-th frame; 0: of none [5]");
     command->add_flag("--quick", flags->quick, "One run of 8 frames of 3 taus");
+    add("--ocean-at", flags->ocean_at, "LAT,LON", "Where the sea is measured [the widest water]");
+    add("--ocean-rows", flags->ocean_rows, "usual|all",
+        "Heights of the eye, directions and sizes of the sea's meshes [usual]");
     add_picture_flags(*command, flags->view);
     add_budget_flags(*command, flags->budget);
     add_common(*command, flags->common);

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -28,22 +27,19 @@
 #include "lod/ocean/projected_mesh.hpp"
 #include "lod/ocean/radial_grid.hpp"
 #include "lod/scene/scene.hpp"
-#include "viewer/camera.hpp"
+#include "viewer/bench/ocean_stage.hpp"
 #include "viewer/gl_check.hpp"
-#include "viewer/gl_context_egl.hpp"
-#include "viewer/mesher.hpp"
 #include "viewer/numbers.hpp"
-#include "viewer/ocean/ocean_probe.hpp"
-#include "viewer/renderer.hpp"
 
 namespace {
 
 using namespace relevo;
+using viewer::OceanGaze;
 using viewer::OceanKind;
+using viewer::OceanStage;
 
-constexpr std::array kKinds{OceanKind::geoclipmap, OceanKind::radial, OceanKind::projected};
+constexpr auto kKinds = viewer::kOceanKinds;
 constexpr std::array kHeights{2.0, 50.0, 2000.0, 50000.0};
-constexpr std::array kDirections{"down", "45 degrees", "horizon"};
 constexpr double kRadius = 6371e3;
 
 struct Options {
@@ -64,189 +60,15 @@ viewer::OceanSettings ocean_of(const Options& options) {
     return ocean;
 }
 
-/// Everything that draws a scene, for one size of picture.
-class Stage {
-  public:
-    static Result<std::unique_ptr<Stage>> create(const lod::Scene& scene, const lod::Terrain& terrain,
-                                                 int width, int height, const Options& options) {
-        auto context = viewer::OffscreenContext::create();
-        if (!context) return context.error();
-        std::unique_ptr<Stage> made(new Stage(scene, terrain, *std::move(context), options));
-        made->width_ = width;
-        made->height_ = height;
-        auto renderer = viewer::Renderer::create(
-            terrain, {.pyramid = terrain.pyramid().get(), .facts = made->facts_, .heights = &made->heights_});
-        if (!renderer) return renderer.error();
-        made->renderer_.emplace(*std::move(renderer));
-        auto probe = viewer::OceanProbe::create(width, height);
-        if (!probe) return probe.error();
-        made->probe_.emplace(*std::move(probe));
-        auto target = viewer::RenderTarget::create(width, height, 1);
-        if (!target) return target.error();
-        made->target_.emplace(*std::move(target));
-        return made;
-    }
-
-    viewer::Ocean& ocean() { return renderer_->ocean(); }
-    const viewer::EyeHeight& heights() const { return heights_; }
-
-    /// What the sea ought to be; of the waves that were drawn last.
-    const viewer::TrueSea& sea() {
-        sea_.waves = &ocean().waves();
-        return sea_;
-    }
-
-    lod::Camera camera(const viewer::ViewState& state) const {
-        return viewer::camera_of(state, heights_, width_, height_);
-    }
-
-    Result<viewer::ProbePicture> probe(const lod::Camera& camera, OceanKind kind) {
-        const lod::View view(camera);
-        if (auto done = prepare(view, kind); !done) return done.error();
-        return probe_->draw(*renderer_, view, settings(kind));
-    }
-
-    struct Times {
-        viewer::OceanFigures figures;
-        double arrange_ms = 0;  // medians
-        double draw_ms = 0;
-    };
-    Result<Times> time(const lod::Camera& camera, OceanKind kind, int frames) {
-        const lod::View view(camera);
-        if (auto done = prepare(view, kind); !done) return done.error();
-        Times times;
-        std::vector<double> arrange, draw;
-        for (int frame = -1; frame < frames; ++frame) {  // the first compiles
-            const auto drawn = renderer_->draw(view, settings(kind), *target_, {}, true);
-            if (!drawn) return drawn.error();
-            times.figures = drawn->ocean;
-            if (frame < 0) continue;
-            arrange.push_back(drawn->ocean.arrange_ms);
-            draw.push_back(drawn->ocean.draw_ms);
-        }
-        const auto median = [](std::vector<double>& values) {
-            std::sort(values.begin(), values.end());
-            return values[values.size() / 2];
-        };
-        times.arrange_ms = median(arrange);
-        times.draw_ms = median(draw);
-        return times;
-    }
-
-    std::vector<glm::ivec2> holes(const viewer::ProbePicture& picture) {
-        sea();
-        return holes_.holes(picture);
-    }
-
-  private:
-    Stage(const lod::Scene& scene, const lod::Terrain& terrain, viewer::OffscreenContext context,
-          const Options& options)
-        : terrain_(terrain),
-          options_(options),
-          heights_(scene.geoid()),
-          facts_(viewer::ground_facts(scene.info())),
-          context_(std::move(context)),
-          mesher_(terrain),
-          holes_(terrain, sea_) {
-        sea_.heights = &heights_;
-        sea_.depth_m = [this](geo::LatLon place) { return depth_m(place); };
-    }
-
-    viewer::DrawSettings settings(OceanKind kind) const {
-        viewer::DrawSettings how;
-        how.ocean = ocean_of(options_);
-        how.ocean.kind = kind;
-        return how;
-    }
-
-    Result<void> prepare(const lod::View& view, OceanKind kind) {
-        const auto mesh = mesher_.whole_mesh(view, {});
-        if (!mesh) return mesh.error();
-        renderer_->upload(**mesh);
-        return renderer_->complete(view, settings(kind), {0, 0, width_, height_});
-    }
-
-    double depth_m(geo::LatLon place) const {
-        if (facts_.sea_is_level) return NAN;
-        const geo::GridFrame& grid = terrain_.frame();
-        geo::GridPosition at = grid.grid_position(place);
-        at.column = std::clamp(at.column, 0.0, grid.columns - 1.0);
-        at.row = std::clamp(at.row, 0.0, grid.rows - 1.0);
-        const int west = std::min(static_cast<int>(at.column), grid.columns - 2);
-        const int north = std::min(static_cast<int>(at.row), grid.rows - 2);
-        const double x = at.column - west;
-        const double y = at.row - north;
-        const auto H = [&](int column, int row) {
-            return static_cast<double>(posts_.H(west + column, north + row));
-        };
-        const double bed =
-            (1 - y) * ((1 - x) * H(0, 0) + x * H(1, 0)) + y * ((1 - x) * H(0, 1) + x * H(1, 1));
-        // In shallow water what is drawn depends on how finely the bed is read: deep water alone shows the
-        // mesh.
-        const double longest_m =
-            sea_.waves->components().empty() ? 0 : sea_.waves->components().front().length_m();
-        return -bed > 0.5 * longest_m ? -bed : NAN;
-    }
-
-    const lod::Terrain& terrain_;
-    const Options& options_;
-    viewer::EyeHeight heights_;
-    viewer::GroundFacts facts_;
-    viewer::OffscreenContext context_;  // before all that OpenGL has
-    std::optional<viewer::Renderer> renderer_;
-    std::optional<viewer::OceanProbe> probe_;
-    std::optional<viewer::RenderTarget> target_;
-    viewer::Mesher mesher_;
-    mutable lod::TruePosts::Reader posts_{terrain_.posts()};
-    viewer::TrueSea sea_;
-    viewer::HoleFinder holes_;
-    int width_ = 0;
-    int height_ = 0;
-};
-
-viewer::ViewState view_of(const Options& options, double height_m, std::size_t direction) {
-    viewer::ViewState state;
-    state.place = options.place;
-    state.H.m = height_m;
-    state.heading.value = options.heading;
-    const double dip = geo::Degrees::from_radians(std::acos(kRadius / (kRadius + height_m))).value;
-    state.pitch.value = std::array{-90.0, -45.0, -dip}[direction];
-    return state;
+viewer::OceanSettings ocean_of(const Options& options, OceanKind kind) {
+    auto ocean = ocean_of(options);
+    ocean.kind = kind;
+    return ocean;
 }
 
-/// The eye a hundredth of its height to the side, or forward.
-lod::Camera moved(const lod::Camera& camera, double height_m, bool forward) {
-    const double heading = camera.heading.radians() + (forward ? 0 : 0.5 * std::numbers::pi);
-    const double step = 0.01 * height_m;
-    const geo::EnuFrame here(camera.eye);
-    lod::Camera next = camera;
-    next.eye = geo::to_geodetic(here.to_ecef({{step * std::sin(heading), step * std::cos(heading), 0}}));
-    next.eye.h = camera.eye.h;
-    return next;
-}
-
-struct Judged {
-    viewer::SeaError error;
-    std::size_t holes = 0;
-    viewer::Swimming swimming;  // the worse of both ways
-};
-
-Result<Judged> judge(Stage& stage, const lod::Camera& camera, double height_m, OceanKind kind) {
-    const auto picture = stage.probe(camera, kind);
-    if (!picture) return picture.error();
-    Judged judged;
-    judged.error = viewer::measure_sea_error(*picture, stage.sea());
-    judged.holes = stage.holes(*picture).size();
-    for (const bool forward : {false, true}) {
-        const auto next = stage.probe(moved(camera, height_m, forward), kind);
-        if (!next) return next.error();
-        const auto swimming = viewer::measure_swimming(*picture, *next, stage.sea());
-        judged.swimming.max_px = std::max(judged.swimming.max_px, swimming.max_px);
-        judged.swimming.rms_px = std::max(judged.swimming.rms_px, swimming.rms_px);
-        judged.swimming.pixels += swimming.pixels;
-        judged.swimming.sea_pixels += swimming.sea_pixels;
-    }
-    return judged;
+viewer::OceanSight sight_of(const Options& options, double height_m, OceanGaze gaze) {
+    return {
+        .place = options.place, .heading = geo::Degrees{options.heading}, .eye_m = height_m, .gaze = gaze};
 }
 
 void print_head(std::string_view first) {
@@ -259,33 +81,32 @@ void print_head(std::string_view first) {
         first);
 }
 
-Result<void> print_row(Stage& stage, const Options& options, std::string_view first, OceanKind kind,
-                       double height_m, std::size_t direction) {
-    const lod::Camera camera = stage.camera(view_of(options, height_m, direction));
-    const auto times = stage.time(camera, kind, options.frames);
-    if (!times) return times.error();
-    const auto judged = judge(stage, camera, height_m, kind);
-    if (!judged) return judged.error();
-    const auto& [error, holes, swimming] = *judged;
+Result<void> print_row(OceanStage& stage, const Options& options, std::string_view first, OceanKind kind,
+                       double height_m, OceanGaze gaze) {
+    const auto row =
+        stage.measure(sight_of(options, height_m, gaze), ocean_of(options, kind), options.frames);
+    if (!row) return row.error();
+    const viewer::SeaError& error = row->error;
+    const viewer::Swimming& swimming = row->swimming;
     fmt::print(
         "| {} | {:g} | {} | {} | {} | {} | {:.2f} | {:.1f} | {:.3f} | {:.4f} | {:.3f} | {} | {} | {:.3f} | "
         "{:.4f} | {} | {:.3f} | {:.4f} | {:.0f} % |\n",
-        first, height_m, kDirections[direction], times->figures.vertices, times->figures.triangles,
-        times->figures.draw_calls, times->arrange_ms, times->draw_ms, error.max_px, error.rms_px,
-        error.p99_px, error.over, error.pixels, error.position_max_px, error.position_rms_px, holes,
-        swimming.max_px, swimming.rms_px,
+        first, height_m, to_string(gaze), row->figures.vertices, row->figures.triangles,
+        row->figures.draw_calls, row->cpu_ms, row->gpu_ms, error.max_px, error.rms_px, error.p99_px,
+        error.over, error.pixels, error.position_max_px, error.position_rms_px, row->holes, swimming.max_px,
+        swimming.rms_px,
         100.0 * static_cast<double>(swimming.pixels) /
             std::max(1.0, static_cast<double>(swimming.sea_pixels)));
     std::fflush(stdout);
     return {};
 }
 
-Result<void> survey_meshes(Stage& stage, const Options& options) {
+Result<void> survey_meshes(OceanStage& stage, const Options& options) {
     print_head("mesh");
     for (const double height_m : kHeights) {
-        for (std::size_t direction = 0; direction < kDirections.size(); ++direction) {
+        for (const OceanGaze gaze : viewer::kOceanGazes) {
             for (const OceanKind kind : kKinds) {
-                if (auto done = print_row(stage, options, to_string(kind), kind, height_m, direction); !done)
+                if (auto done = print_row(stage, options, to_string(kind), kind, height_m, gaze); !done)
                     return done;
             }
         }
@@ -330,13 +151,13 @@ lod::RadialShape radial_of(double vertices, double height_m) {
     return lod::radial_shape(first_m, reach_m(height_m), exponent, rings, sectors);
 }
 
-void use_own_meshes(Stage& stage) {
+void use_own_meshes(OceanStage& stage) {
     stage.ocean().use_mesh(OceanKind::geoclipmap, std::make_unique<lod::Geoclipmap>());
     stage.ocean().use_mesh(OceanKind::radial, std::make_unique<lod::RadialGrid>());
     stage.ocean().use_mesh(OceanKind::projected, std::make_unique<lod::ProjectedMesh>());
 }
 
-Result<void> survey_equal(Stage& stage, const Options& options) {
+Result<void> survey_equal(OceanStage& stage, const Options& options) {
     print_head("mesh, vertices in total");
     for (const double vertices : {10e3, 40e3, 160e3}) {
         for (const double height_m : kHeights) {
@@ -352,10 +173,10 @@ Result<void> survey_equal(Stage& stage, const Options& options) {
             stage.ocean().use_mesh(OceanKind::projected, std::make_unique<lod::ProjectedMesh>(side));
             const std::array totals{in_squares, static_cast<double>(rings.rings) * rings.sectors,
                                     static_cast<double>(side) * side};
-            for (std::size_t direction = 0; direction < kDirections.size(); ++direction) {
+            for (const OceanGaze gaze : viewer::kOceanGazes) {
                 for (std::size_t i = 0; i < kKinds.size(); ++i) {
                     const auto name = fmt::format("{}, {:.0f}", to_string(kKinds[i]), totals[i]);
-                    if (auto done = print_row(stage, options, name, kKinds[i], height_m, direction); !done)
+                    if (auto done = print_row(stage, options, name, kKinds[i], height_m, gaze); !done)
                         return done;
                 }
             }
@@ -401,26 +222,26 @@ class Plane final : public lod::OceanMesh {
 
 /// Against a plane that has the same measured error, and reaches the horizon. What of it has no room in
 /// memory is left out of its measure, and counted into its costs by the triangle.
-Result<void> survey_plane(Stage& stage, const Options& options) {
+Result<void> survey_plane(OceanStage& stage, const Options& options) {
     constexpr int kMostRings = 11;  // 2.2 million vertices
     fmt::print(
         "\n| eye m | direction | mesh | error max px | triangles | ms | plane's spacing m | its error px | "
         "triangles to the horizon | ratio | triangles drawn | ms | ms to the horizon | ratio |\n"
         "|---:|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n");
     for (const double height_m : {2.0, 50.0}) {
-        for (std::size_t direction = 0; direction < kDirections.size(); ++direction) {
-            const lod::Camera camera = stage.camera(view_of(options, height_m, direction));
+        for (const OceanGaze gaze : viewer::kOceanGazes) {
+            const lod::Camera camera = stage.camera(sight_of(options, height_m, gaze));
             struct Own {
                 double px, ms, triangles;
             };
             std::array<Own, kKinds.size()> own{};
             for (std::size_t i = 0; i < kKinds.size(); ++i) {
-                const auto picture = stage.probe(camera, kKinds[i]);
+                const auto picture = stage.probe(camera, ocean_of(options, kKinds[i]));
                 if (!picture) return picture.error();
-                const auto times = stage.time(camera, kKinds[i], options.frames);
+                const auto times = stage.time(camera, ocean_of(options, kKinds[i]), options.frames);
                 if (!times) return times.error();
                 own[i] = {viewer::measure_sea_error(*picture, stage.sea()).max_px,
-                          times->arrange_ms + times->draw_ms, static_cast<double>(times->figures.triangles)};
+                          times->cpu_ms + times->gpu_ms, static_cast<double>(times->figures.triangles)};
             }
             const auto rings_for = [&](double spacing_m) {
                 const double blocks = reach_m(height_m) / (Plane::kCells * spacing_m);
@@ -430,7 +251,7 @@ Result<void> survey_plane(Stage& stage, const Options& options) {
                 const auto error_of = [&](double spacing_m) -> Result<double> {
                     stage.ocean().use_mesh(OceanKind::geoclipmap,
                                            std::make_unique<Plane>(spacing_m, rings_for(spacing_m)));
-                    const auto picture = stage.probe(camera, OceanKind::geoclipmap);
+                    const auto picture = stage.probe(camera, ocean_of(options, OceanKind::geoclipmap));
                     if (!picture) return picture.error();
                     const auto error = viewer::measure_sea_error(*picture, stage.sea());
                     return error.pixels > 0 ? error.max_px : 0;
@@ -446,11 +267,12 @@ Result<void> survey_plane(Stage& stage, const Options& options) {
                     if (*tried <= own[i].px) reached = *tried;
                 }
                 if (auto last = error_of(fine); !last) return last.error();
-                const auto times = stage.time(camera, OceanKind::geoclipmap, options.frames);
+                const auto times =
+                    stage.time(camera, ocean_of(options, OceanKind::geoclipmap), options.frames);
                 if (!times) return times.error();
                 use_own_meshes(stage);
                 const double drawn = static_cast<double>(times->figures.triangles);
-                const double ms = times->arrange_ms + times->draw_ms;
+                const double ms = times->cpu_ms + times->gpu_ms;
                 const double side = 2 * reach_m(height_m) / fine;
                 const double needed = std::max(2 * side * side, drawn);
                 const double needed_ms = ms * needed / std::max(drawn, 1.0);
@@ -458,8 +280,8 @@ Result<void> survey_plane(Stage& stage, const Options& options) {
                     "| {:g} | {} | {} | {:.3f} | {:.0f} | {:.1f} | {:.4g} | {:.3f} | {:.3g} | {:.3g} | "
                     "{:.0f} | "
                     "{:.1f} | {:.3g} | {:.3g} |\n",
-                    height_m, kDirections[direction], to_string(kKinds[i]), own[i].px, own[i].triangles,
-                    own[i].ms, fine, reached, needed, needed / own[i].triangles, drawn, ms, needed_ms,
+                    height_m, to_string(gaze), to_string(kKinds[i]), own[i].px, own[i].triangles, own[i].ms,
+                    fine, reached, needed, needed / own[i].triangles, drawn, ms, needed_ms,
                     needed_ms / own[i].ms);
                 std::fflush(stdout);
             }
@@ -504,7 +326,7 @@ viewer::ViewState flight_view(const Options& options, double part) {
     return state;
 }
 
-Result<bool> fly(Stage& stage, const Options& options) {
+Result<bool> fly(OceanStage& stage, const Options& options) {
     fmt::print(
         "| mesh | frames | with sea | sea pixels | holes | frames with holes | inside a wave |\n"
         "|---|---:|---:|---:|---:|---:|---:|\n");
@@ -519,7 +341,7 @@ Result<bool> fly(Stage& stage, const Options& options) {
         for (int frame = 0; frame < options.watertight; ++frame) {
             auto state = flight_view(options, static_cast<double>(frame) / options.watertight);
             state.ocean.kind = kind;
-            const auto picture = stage.probe(stage.camera(state), kind);
+            const auto picture = stage.probe(stage.camera(state), state.ocean);
             if (!picture) return picture.error();
             const auto sea = std::count_if(
                 picture->pixels.begin(), picture->pixels.end(),
@@ -553,7 +375,8 @@ Result<bool> run(const char* path, const Options& options) {
     const auto terrain = lod::Terrain::open(*scene, lod::ErrorMetric::bounded, {.fade_s = 0});
     if (!terrain) return terrain.error();
     const bool flight = options.watertight > 0;
-    const auto stage = Stage::create(*scene, *terrain, flight ? 640 : 1280, flight ? 360 : 720, options);
+    const viewer::EyeHeight heights(scene->geoid());
+    const auto stage = OceanStage::create(*scene, *terrain, heights, flight ? 640 : 1280, flight ? 360 : 720);
     if (!stage) return stage.error();
     fmt::print("{}, wind {:g} m/s, {}\n", path, options.wind_m_s, viewer::gl_description());
     if (flight) return fly(**stage, options);

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "tests/app/run_program.hpp"
+#include "tests/shared_data.hpp"
 #include "tests/viewer/scene_for_pictures.hpp"
 #include "viewer/flight_path.hpp"
 
@@ -107,6 +108,9 @@ TEST_F(BenchCommand, LeavesFiguresAndAPage) {
     }
     EXPECT_EQ(methods, (std::set<std::string>{"full", "soar-bounded", "soar-incremental", "textbook"}));
     EXPECT_EQ(json["morph_price"].size(), 6u);
+    EXPECT_TRUE(json["ocean"].is_array() && json["ocean"].empty()) << "there is no sea";
+    EXPECT_TRUE(json["ocean_at"].is_null() && json["ocean_left_out"].is_null());
+    EXPECT_FALSE(fs::exists(out_ / "ocean.csv"));
     EXPECT_EQ(csv_rows(out_ / "bench.csv"), rows.size());
     std::size_t frames = 0;
     for (const auto& row : rows) frames += row["frames"].get<std::size_t>();
@@ -127,6 +131,56 @@ TEST_F(BenchCommand, LeavesFiguresAndAPage) {
     const auto flight = viewer::FlightPath::load(out_ / "flight.txt");
     ASSERT_TRUE(flight) << flight.error().message;
     EXPECT_EQ(flight->duration_s(), 60);
+}
+
+TEST_F(BenchCommand, MeasuresTheSea) {
+    RELEVO_NEEDS_DATA("coast/N43E007.hgt.zip");
+    const auto imported = relevo("ingest " + shared_data("coast/N43E007.hgt.zip").string() + " -o " + scene_ +
+                                 " --quiet --overwrite");
+    ASSERT_EQ(imported.status, 0) << imported.err;
+    const std::string one_frame =
+        "--methods soar-bounded --morph off --taus 8 --frames 1 --runs 1 --error-every 0 --overwrite --json ";
+    const auto run = bench(one_frame);
+    ASSERT_EQ(run.status, 0) << run.err;
+    const auto json = nlohmann::json::parse(run.out);
+    const auto& rows = json["ocean"];
+    ASSERT_EQ(rows.size(), 3u * 2 * 3 * 2) << "meshes, sizes, heights and directions";
+    EXPECT_LT(json["ocean_at"][0], 43.6) << "the sea is in the south";
+    EXPECT_TRUE(json["ocean_left_out"].is_null());
+    std::set<std::string> meshes;
+    for (const auto& row : rows) {
+        meshes.insert(row["mesh"]);
+        EXPECT_EQ(row["holes"], 0) << row;
+        EXPECT_GT(row["triangles"], 0) << row;
+        EXPECT_GE(row["vertices"], 4) << row;
+        EXPECT_GE(row["draw_calls"], 1) << row;
+        EXPECT_GT(row["cpu_ms"], 0) << row;
+        EXPECT_GT(row["gpu_ms"], 0) << row;
+        ASSERT_GT(row["error_pixels"], 0) << row;
+        EXPECT_GT(row["max_error_px"], 0) << row;
+        EXPECT_GE(row["max_error_px"], row["rms_error_px"]) << row;
+        // The projected grid has a most of vertices, which is too few along the horizon.
+        if (row["mesh"] != "projected") {
+            EXPECT_LE(row["max_error_px"], row["asked_px"]) << row;
+        }
+    }
+    EXPECT_EQ(meshes, (std::set<std::string>{"geoclipmap", "projected", "radial"}));
+    EXPECT_EQ(csv_rows(out_ / "ocean.csv"), rows.size());
+    const std::string page = contents(out_ / "bench.html");
+    EXPECT_NE(page.find("swimming"), std::string::npos);
+    EXPECT_EQ(page.find("nan"), std::string::npos);
+
+    const auto radial = bench(one_frame + "--quick --ocean radial --ocean-at 43.4,7.5");
+    ASSERT_EQ(radial.status, 0) << radial.err;
+    const auto alone = nlohmann::json::parse(radial.out);
+    EXPECT_EQ(alone["ocean"].size(), 6u);
+    EXPECT_EQ(alone["ocean_at"], nlohmann::json({43.4, 7.5}));
+
+    fs::remove_all(out_);
+    const auto off = bench(one_frame + "--ocean off");
+    ASSERT_EQ(off.status, 0) << off.err;
+    EXPECT_TRUE(nlohmann::json::parse(off.out)["ocean"].empty());
+    EXPECT_FALSE(fs::exists(out_ / "ocean.csv"));
 }
 
 TEST_F(BenchCommand, FliesWhatItIsTold) {
@@ -155,9 +209,10 @@ TEST_F(BenchCommand, FliesWhatItIsTold) {
 }
 
 TEST_F(BenchCommand, RefusesBeforeItBegins) {
-    for (const char* flags : {"--taus 1,x", "--taus 0", "--methods best", "--methods soar-bounded,",
-                              "--frames 0", "--runs 0", "--error-every -1", "--budget 0", "--max-triangles 1",
-                              "--morph maybe", "--size 5000x10", "--at 1,2,3", "--lod full"}) {
+    for (const char* flags :
+         {"--taus 1,x", "--taus 0", "--methods best", "--methods soar-bounded,", "--frames 0", "--runs 0",
+          "--error-every -1", "--budget 0", "--max-triangles 1", "--morph maybe", "--ocean-rows few",
+          "--ocean-at 91,0", "--ocean-at 1", "--size 5000x10", "--at 1,2,3", "--lod full"}) {
         const auto run = bench(flags);
         EXPECT_EQ(run.status, 2) << flags << run.err;
         EXPECT_FALSE(run.err.empty()) << flags;

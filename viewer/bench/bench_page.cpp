@@ -53,17 +53,9 @@ std::string or_dash(bool known, double value, int digits) {
     return known ? number(value, digits) : "&ndash;";
 }
 
-/// Text cells of a row of a table.
-std::string table_row(const std::vector<std::string>& cells, const char* tag = "td",
-                      const char* row_class = "") {
-    std::string html = *row_class == '\0' ? "<tr>" : fmt::format("<tr class=\"{}\">", row_class);
-    for (const std::string& cell : cells) html += fmt::format("<{0}>{1}</{0}>", tag, cell);
-    return html + "</tr>\n";
-}
-
-class Page {
+class BenchPage {
   public:
-    Page(const BenchSubject& subject, const BenchResult& result, std::span<const BenchSummary> rows)
+    BenchPage(const BenchSubject& subject, const BenchResult& result, std::span<const BenchSummary> rows)
         : subject_(subject), result_(result), rows_(rows), frame_(subject.scene.info().frame) {}
 
     std::string make() {
@@ -81,6 +73,7 @@ class Page {
         all_rows();
         equal_errors();
         prices();
+        html_ += ocean_page_part(result_.ocean);
         memory();
         published();
         html_ += "</body>\n</html>\n";
@@ -422,7 +415,7 @@ class Page {
 
 std::string bench_page(const BenchSubject& subject, const BenchResult& result,
                        std::span<const BenchSummary> rows) {
-    return Page(subject, result, rows).make();
+    return BenchPage(subject, result, rows).make();
 }
 
 }  // namespace relevo::viewer

@@ -130,10 +130,15 @@ json bench_json(const BenchSubject& subject, const BenchResult& result, std::spa
               {"seconds", result.seconds},
               {"morph_price", prices_json(rows)},
               {"rows", json::array()},
-              {"skipped", json::array()}};
+              {"skipped", json::array()},
+              {"ocean", ocean_json(result.ocean)},
+              {"ocean_at", nullptr},
+              {"ocean_left_out", nullptr}};
     for (const BenchSummary& row : rows) made["rows"].push_back(to_json(row));
     for (const BenchSkipped& skipped : result.skipped)
         made["skipped"].push_back({{"method", to_string(skipped.method)}, {"reason", skipped.reason}});
+    if (const auto& place = result.ocean.place) made["ocean_at"] = {place->lat.value, place->lon.value};
+    if (!result.ocean.left_out.empty()) made["ocean_left_out"] = result.ocean.left_out;
     return made;
 }
 
@@ -218,7 +223,7 @@ std::string bench_text(const BenchResult& result, std::span<const BenchSummary> 
     }
     for (const BenchSkipped& skipped : result.skipped)
         text += fmt::format("{} left out: {}\n", to_string(skipped.method), skipped.reason);
-    return text;
+    return text + ocean_text(result.ocean);
 }
 
 }  // namespace relevo::viewer

@@ -12,6 +12,7 @@
 #include "lod/surface_jump.hpp"
 #include "viewer/bench/bench_options.hpp"
 #include "viewer/bench/machine.hpp"
+#include "viewer/bench/ocean_bench.hpp"
 #include "viewer/eye_height.hpp"
 #include "viewer/flight_path.hpp"
 
@@ -55,6 +56,7 @@ struct BenchSkipped {
 struct BenchResult {
     std::vector<BenchRow> rows;
     std::vector<BenchSkipped> skipped;
+    OceanBench ocean;  ///< measured by itself (run_ocean_bench)
     Machine machine;
     double seconds = 0;  ///< that all of it took
 };

@@ -72,6 +72,7 @@ std::string legend(const std::vector<PlotSeries>& series) {
     double y = kTop + 10;
     const double x = kWidth - kRight + 14;
     for (const PlotSeries& s : series) {
+        if (s.name.empty()) continue;
         svg += fmt::format(R"(<line x1="{:.0f}" y1="{:.0f}" x2="{:.0f}" y2="{:.0f}" stroke="{}" {}/>)", x, y,
                            x + 26, y, s.colour, s.dashed ? R"(stroke-dasharray="5 3" )" : "");
         if (s.points)
@@ -220,6 +221,12 @@ std::string bar_plot(const std::string& title, const std::vector<PlotBar>& bars)
     svg += fmt::format("<text class=\"t\" x=\"{:.0f}\" y=\"{:.0f}\" text-anchor=\"middle\">{}</text>\n",
                        0.5 * (kNames + kWidth - 190), height - 12, html_text(title));
     return svg + "</svg>\n";
+}
+
+std::string table_row(const std::vector<std::string>& cells, const char* tag, const char* row_class) {
+    std::string html = *row_class == '\0' ? "<tr>" : fmt::format("<tr class=\"{}\">", row_class);
+    for (const std::string& cell : cells) html += fmt::format("<{0}>{1}</{0}>", tag, cell);
+    return html + "</tr>\n";
 }
 
 }  // namespace relevo::viewer

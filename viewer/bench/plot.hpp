@@ -13,7 +13,7 @@ struct PlotAxis {
 };
 
 struct PlotSeries {
-    std::string name;
+    std::string name;    ///< empty: not in the legend
     std::string colour;  ///< CSS
     bool dashed = false;
     bool points = true;  ///< a mark at each; their labels show under the cursor
@@ -40,5 +40,9 @@ std::vector<double> plot_ticks(double low, double high, bool logarithmic);
 
 /// Text for HTML: with the characters that mean something there replaced.
 std::string html_text(std::string_view text);
+
+/// A row of a table, of HTML as it is. \param tag  of its cells
+std::string table_row(const std::vector<std::string>& cells, const char* tag = "td",
+                      const char* row_class = "");
 
 }  // namespace relevo::viewer
