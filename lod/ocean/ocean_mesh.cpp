@@ -33,10 +33,10 @@ bool patch_in_view(const SeaView& sea, const std::array<glm::dvec2, 4>& corners)
         radius_m = std::max(radius_m, glm::distance(corners[i], middle));
     }
     if (glm::length(middle) - radius_m > sea.reach_m) return false;
-    // The bulge of the sea over the flat between the corners, and what SeaView leaves out of the earth's
-    // shape.
-    const double margin = 1.1 * radius_m * radius_m / (2 * sea.radius_m) + 0.005 * radius_m +
-                          0.005 * glm::length(middle) * glm::length(middle) / sea.radius_m;
+    // The bulge of the sea over the flat between the corners; and the chart's metres and SeaView's sphere,
+    // which are right to half a percent.
+    const double margin =
+        1.1 * radius_m * radius_m / (2 * sea.radius_m) + 0.005 * (radius_m + glm::length(middle));
     const auto outside = [&](const glm::dvec3& plane) {
         const double waves =
             sea.crest_m * (std::abs(glm::dot(plane, sea.up)) + 2 * glm::length(middle) / sea.radius_m);

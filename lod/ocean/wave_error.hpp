@@ -23,13 +23,4 @@ double interpolation_error(double length_over_spacing);
 /// million exceed. Never falls as the spacing grows.
 double mesh_error_m(const Waves& waves, double spacing_m);
 
-/// The largest spacing, to 1e-12 of the longest wave, whose `mesh_error_m` is at most this; infinite if a
-/// flat sea will do.
-double spacing_for(const Waves& waves, double error_m);
-
-/// For meshes whose spacing grows with the distance D, c D: the largest c, at most 0.5 and right to 1 % on
-/// the safe side, with focal_px mesh_error_m(c D) / D <= error_px at each D from nearest_m on. Takes some 6
-/// ms. \param focal_px  pixels that a metre across the view covers at a distance of 1 m \pre all are positive
-double spacing_slope(const Waves& waves, double focal_px, double error_px, double nearest_m);
-
 }  // namespace relevo::lod

@@ -145,45 +145,5 @@ TEST(WaveError, NeverFallsAsTheSpacingGrows) {
     EXPECT_EQ(lod::mesh_error_m(Waves(), 1), 0);
 }
 
-TEST(WaveError, SpacingIsTheLargestThatKeepsTheError) {
-    for (const double u : {1.0, 6.0, 20.0}) {
-        const Waves waves = Waves::of_wind({u, Degrees{}});
-        const double flat = lod::mesh_error_m(waves, kInfinity);
-        for (const double part : {1e-6, 1e-3, 0.01, 0.1, 0.5, 0.99}) {
-            const double spacing = lod::spacing_for(waves, part * flat);
-            EXPECT_LE(lod::mesh_error_m(waves, spacing), part * flat) << u << ' ' << part;
-            EXPECT_GT(lod::mesh_error_m(waves, spacing * (1 + 1e-6)), part * flat) << u << ' ' << part;
-        }
-        EXPECT_EQ(lod::spacing_for(waves, flat), kInfinity);
-        EXPECT_EQ(lod::spacing_for(waves, waves.crest_m()), kInfinity);
-        EXPECT_EQ(lod::spacing_for(waves, 0), 0);
-    }
-    EXPECT_EQ(lod::spacing_for(Waves(), 0), kInfinity);
-}
-
-TEST(WaveError, SlopeIsTheLargestThatKeepsTheErrorAtEveryDistance) {
-    for (const double u : {2.0, 8.0, 20.0}) {
-        const Waves waves = Waves::of_wind({u, Degrees{}});
-        for (const double error_px : {0.5, 1.0, 4.0}) {
-            for (const double nearest : {1.7, 30.0, 1000.0}) {
-                const double focal = 1200;
-                const auto worst_px = [&](double slope) {
-                    double worst = 0;
-                    for (double d = nearest; d < 1e6; d *= 1.0013) {
-                        worst = std::max(worst, focal * lod::mesh_error_m(waves, slope * d) / d);
-                    }
-                    return worst;
-                };
-                const double slope = lod::spacing_slope(waves, focal, error_px, nearest);
-                EXPECT_LE(worst_px(slope), error_px) << u << ' ' << error_px << ' ' << nearest;
-                if (slope < 0.5) {
-                    EXPECT_GT(worst_px(1.03 * slope), error_px) << u << ' ' << error_px;
-                }
-            }
-        }
-    }
-    EXPECT_EQ(lod::spacing_slope(Waves(), 1000, 1, 1), 0.5);
-}
-
 }  // namespace
 }  // namespace relevo

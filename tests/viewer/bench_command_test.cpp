@@ -161,7 +161,7 @@ TEST_F(BenchCommand, MeasuresTheSea) {
         EXPECT_GE(row["max_error_px"], row["rms_error_px"]) << row;
         // The projected grid has a most of vertices, which is too few along the horizon.
         if (row["mesh"] != "projected") {
-            EXPECT_LE(row["max_error_px"], row["asked_px"]) << row;
+            EXPECT_LE(row["max_error_px"], 1.05 * row["asked_px"].get<double>()) << row;
         }
     }
     EXPECT_EQ(meshes, (std::set<std::string>{"geoclipmap", "projected", "radial"}));

@@ -49,11 +49,11 @@ TEST(OpenSea, IsTheMiddleOfTheWidestWater) {
 
 TEST(OpenSea, IsDeepWhereThereIsDeepWater) {
     const auto is_sea = [](int column, int) { return column > 100; };
-    const auto bed = [](int column, int) { return column > 620 ? -500 : -5; };
+    const auto bed = [](int column, int) { return column > 500 ? -500 : -5; };
     const auto terrain = coast(is_sea, bed);
-    EXPECT_GT(found(terrain, -50).column, 620);
-    EXPECT_LT(found(terrain).column, 620) << "nearer to the middle";
-    EXPECT_LT(found(terrain, -1000).column, 620) << "there is none so deep";
+    EXPECT_GT(found(terrain, -50).column, 500);
+    EXPECT_LT(found(terrain).column, 500) << "nearer to the middle";
+    EXPECT_LT(found(terrain, -1000).column, 500) << "there is none so deep";
 }
 
 TEST(OpenSea, IsFoundInANarrowStrait) {

@@ -12,9 +12,9 @@ namespace relevo::viewer {
 
 /// A place to measure the sea at: the middle of the largest square of posts that are all sea, of some the one
 /// that is nearest to the data's middle. Squares are looked for on the coarsest posts that have one of 16
-/// cells a side, so that what lies between those posts (an islet) is not seen. \param bed_m  posts count that
-/// are deeper; where no such square is, all sea counts \return nothing where the sea is narrower than 16
-/// posts
+/// cells a side, so that what lies between those posts (an islet) is not seen.
+/// \param bed_m  squares whose bed is below that come first, of those posts
+/// \return nothing where the sea is narrower than 16 posts
 Result<std::optional<geo::LatLon>> open_sea(const lod::Pyramid& pyramid, double bed_m);
 
 /// Where no land is near, by the posts themselves. Keeps in memory what it has read of them.
