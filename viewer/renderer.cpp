@@ -175,6 +175,14 @@ void Renderer::draw_terrain(GlName program, Layer layer) {
     glDisable(GL_CLIP_DISTANCE1);
 }
 
+Result<int> Renderer::fill(const lod::View& view, const DrawSettings& settings) {
+    // Below the ground, where one looks past it from behind, there is nothing to fill.
+    const geo::Geodetic& eye = view.camera().eye;
+    const auto ground = ground_height(*terrain_, {eye.lat, eye.lon}, settings.exaggeration);
+    if (ground && eye.h < *ground) return 0;
+    return ocean_->fill();
+}
+
 Result<DrawFigures> Renderer::probe(const lod::View& view, const DrawSettings& settings) {
     DrawFigures figures;
     Variant probing = variant(settings);
@@ -191,7 +199,7 @@ Result<DrawFigures> Renderer::probe(const lod::View& view, const DrawSettings& s
         draw_terrain(*program, settings.layer);
         ++figures.draw_calls;
     }
-    if (const auto filled = ocean_->fill(); !filled) return filled.error();
+    if (const auto filled = fill(view, settings); !filled) return filled.error();
     glBindVertexArray(0);
     glUseProgram(0);
     if (auto done = gl_check("probing the sea"); !done) return done.error();
@@ -227,7 +235,7 @@ Result<DrawFigures> Renderer::draw(const lod::View& view, const DrawSettings& se
         draw_terrain(*program, settings.layer);
         ++figures.draw_calls;
     }
-    const auto filled = ocean_->fill();
+    const auto filled = fill(view, settings);
     if (!filled) return filled.error();
     figures.draw_calls += *filled;
     if (measured) glEndQuery(GL_ANY_SAMPLES_PASSED);

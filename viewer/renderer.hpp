@@ -88,6 +88,8 @@ class Renderer {
     void draw_terrain(GlName program, Layer layer);
     Result<GlName> terrain_program(const Variant& variant);
     Result<void> make_ramps();
+    /// The ocean's, where the eye is above the ground.
+    Result<int> fill(const lod::View& view, const DrawSettings& settings);
     void make_vertex_array();
 
     const lod::Terrain* terrain_;

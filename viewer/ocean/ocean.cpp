@@ -217,42 +217,17 @@ void Ocean::update_undulation(const lod::SeaView& sea, double sea_h_m) {
 
 void Ocean::use_mesh(OceanKind kind, std::unique_ptr<lod::OceanMesh> mesh) {
     buffers_.erase(kind);
-    buffers_[kind].mesh = std::move(mesh);
+    meshes_[kind] = std::move(mesh);
 }
 
-Ocean::Buffers& Ocean::buffers(OceanKind kind) {
-    Buffers& made = buffers_[kind];
-    if (made.array) return made;
-    if (!made.mesh) made.mesh = make_mesh(kind);
-    std::vector<glm::i16vec2> vertices;
-    std::vector<std::uint16_t> indices;
-    for (const lod::OceanPatch& patch : made.mesh->patches()) {
-        made.parts.push_back({static_cast<int>(vertices.size()), static_cast<int>(indices.size()),
-                              static_cast<int>(patch.indices.size()),
-                              static_cast<int>(patch.vertices.size())});
-        vertices.insert(vertices.end(), patch.vertices.begin(), patch.vertices.end());
-        indices.insert(indices.end(), patch.indices.begin(), patch.indices.end());
-    }
-    made.vertices = GlBuffer::create();
-    made.indices = GlBuffer::create();
-    made.copies = GlBuffer::create();
-    glNamedBufferStorage(made.vertices.name(),
-                         static_cast<GLsizeiptr>(vertices.size() * sizeof(glm::i16vec2)), vertices.data(), 0);
-    glNamedBufferStorage(made.indices.name(), static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint16_t)),
-                         indices.data(), 0);
-    made.array = GlVertexArray::create();
-    const GlName array = made.array.name();
-    glVertexArrayElementBuffer(array, made.indices.name());
-    glVertexArrayVertexBuffer(array, 0, made.vertices.name(), 0, sizeof(glm::i16vec2));
-    glEnableVertexArrayAttrib(array, 0);
-    glVertexArrayAttribIFormat(array, 0, 2, GL_SHORT, 0);
-    glVertexArrayAttribBinding(array, 0, 0);
-    glVertexArrayVertexBuffer(array, 1, made.copies.name(), 0, sizeof(glm::vec4));
-    glVertexArrayBindingDivisor(array, 1, 1);
-    glEnableVertexArrayAttrib(array, 1);
-    glVertexArrayAttribFormat(array, 1, 4, GL_FLOAT, GL_FALSE, 0);
-    glVertexArrayAttribBinding(array, 1, 1);
-    return made;
+const lod::OceanMesh& Ocean::mesh(OceanKind kind) {
+    std::unique_ptr<lod::OceanMesh>& made = meshes_[kind];
+    if (!made) made = make_mesh(kind);
+    return *made;
+}
+
+MeshBuffers& Ocean::buffers(OceanKind kind) {
+    return buffers_.try_emplace(kind, mesh(kind)).first->second;
 }
 
 Result<GlName> Ocean::program(const Variant& variant) {
@@ -308,12 +283,9 @@ Result<OceanFigures> Ocean::draw(const lod::View& view, const OceanSettings& set
     if (has_water({0, 0}, sea.reach_m) == lod::Water::none) return figures;
     const OceanKind kind = chosen(settings.kind, sea, spacing);
     lod::OceanPicture picture;
-    Buffers& drawn = buffers(kind);
-    drawn.mesh->arrange(sea, spacing, has_water, picture);
-    const bool any = std::any_of(picture.copies.begin(), picture.copies.end(), [](const auto& copies) {
-        return !copies.open.empty() || !copies.shore.empty();
-    });
-    if (!any) return figures;
+    mesh(kind).arrange(sea, spacing, has_water, picture);
+    const auto seen = [](const auto& copies) { return !copies.open.empty() || !copies.shore.empty(); };
+    if (std::none_of(picture.copies.begin(), picture.copies.end(), seen)) return figures;
 
     make_objects();
     bake_ripples(settings.time_s);
@@ -326,93 +298,65 @@ Result<OceanFigures> Ocean::draw(const lod::View& view, const OceanSettings& set
         ocean_block(sea, sea_h_m, kUndulationReach, waves_seen && !map_ ? waves_ : lod::Waves(), *ripples_,
                     *terrain_, ground_->facts(), settings, look.sun);
     glNamedBufferSubData(block_.name(), 0, sizeof(block), &block);
-    upload(picture, drawn);
     figures.kind = kind;
     figures.arrange_ms = ms_since(start);
 
-    last_.variant = {OceanKind::off, true, look.sky, look.probe, false, true};
-    last_.shore = false;
-    for (const auto& copies : picture.copies) last_.shore = last_.shore || !copies.shore.empty();
-    if (last_.shore) {
-        const lod::SeaSpacing still(lod::Waves(), lod::height_px(view), 0.5, sea.radius_m);
-        lod::RadialGrid().arrange(
-            sea, still, [](const glm::dvec2&, double) { return lod::Water::shore; }, last_.flat);
-    }
     if (map_) map_texture_->update(*map_, sea.nadir, settings.time_s);
-    bind(drawn);
+    MeshBuffers& drawn = bind(kind, picture);
     // Ground at the sea's own level loses.
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(0, 16);
-    std::size_t first = 0;
-    const auto add = [&](const Buffers::Part& part, std::size_t count, GlName with) {
-        if (count == 0) return;
+    const auto draw_runs = [&](const std::vector<MeshBuffers::Run>& runs, GlName with) {
         glUseProgram(with);
-        draw(part, count, first);
-        first += count;
-        ++figures.draw_calls;
-        figures.triangles += count * static_cast<std::uint64_t>(part.indices) / 3;
-        figures.vertices += count * static_cast<std::uint64_t>(part.vertices);
+        for (const MeshBuffers::Run& run : runs) {
+            drawn.draw(run);
+            ++figures.draw_calls;
+            figures.triangles += drawn.triangles(run);
+            figures.vertices += drawn.vertices(run);
+        }
     };
-    for (std::size_t i = 0; i < picture.copies.size(); ++i) {
-        add(drawn.parts[i], picture.copies[i].open.size(), *open_water);
-        add(drawn.parts[i], picture.copies[i].shore.size(), *shore);
-    }
+    draw_runs(drawn.runs().open, *open_water);
+    draw_runs(drawn.runs().shore, *shore);
     glDisable(GL_POLYGON_OFFSET_FILL);
+
+    last_.variant = {OceanKind::off, true, look.sky, look.probe, false, true};
+    last_.shore = !drawn.runs().shore.empty();
+    if (last_.shore) {
+        const lod::SeaSpacing still(lod::Waves(), lod::height_px(view), 0.5, sea.radius_m);
+        mesh(OceanKind::off)
+            .arrange(
+                sea, still, [](const glm::dvec2&, double) { return lod::Water::shore; }, last_.flat);
+    }
     return figures;
 }
 
-void Ocean::bind(const Buffers& buffers) const {
-    glBindVertexArray(buffers.array.name());
+MeshBuffers& Ocean::bind(OceanKind kind, const lod::OceanPicture& picture) {
+    MeshBuffers& drawn = buffers(kind);
+    drawn.upload(picture);
+    drawn.bind();
+    glNamedBufferSubData(mesh_block_.name(), 0,
+                         static_cast<GLsizeiptr>(picture.numbers.size() * sizeof(glm::vec4)),
+                         picture.numbers.data());
     glBindBufferBase(GL_UNIFORM_BUFFER, kOceanBinding, block_.name());
     glBindBufferBase(GL_UNIFORM_BUFFER, kMeshBinding, mesh_block_.name());
     ground_->bind();
     glBindTextureUnit(kUndulationUnit, undulation_.name());
     glBindTextureUnit(kRipplesUnit, ripple_tiles_.name());
     if (map_) map_texture_->bind();
-}
-
-void Ocean::upload(const lod::OceanPicture& picture, const Buffers& to) const {
-    std::vector<glm::vec4> copies;
-    for (const auto& [open, shore] : picture.copies) {
-        copies.insert(copies.end(), open.begin(), open.end());
-        copies.insert(copies.end(), shore.begin(), shore.end());
-    }
-    glNamedBufferData(to.copies.name(), static_cast<GLsizeiptr>(copies.size() * sizeof(glm::vec4)),
-                      copies.data(), GL_STREAM_DRAW);
-    glNamedBufferSubData(mesh_block_.name(), 0,
-                         static_cast<GLsizeiptr>(picture.numbers.size() * sizeof(glm::vec4)),
-                         picture.numbers.data());
-}
-
-void Ocean::draw(const Buffers::Part& part, std::size_t count, std::size_t first) {
-    const auto* indices =
-        reinterpret_cast<const void*>(static_cast<std::uintptr_t>(part.first_index) * sizeof(std::uint16_t));
-    glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, part.indices, GL_UNSIGNED_SHORT, indices,
-                                                  static_cast<GLsizei>(count), part.first_vertex,
-                                                  static_cast<GLuint>(first));
+    return drawn;
 }
 
 Result<int> Ocean::fill() {
     if (!last_.shore) return 0;
     const auto with = program(last_.variant);
     if (!with) return with.error();
-    Buffers& flat = buffers(OceanKind::off);
-    upload(last_.flat, flat);
-    bind(flat);
+    const MeshBuffers& flat = bind(OceanKind::off, last_.flat);
     glUseProgram(*with);
     // Behind all that has been drawn, in front of what has not.
     glDepthRange(0, 1e-20);
-    int calls = 0;
-    std::size_t first = 0;
-    for (std::size_t i = 0; i < last_.flat.copies.size(); ++i) {
-        const std::size_t count = last_.flat.copies[i].shore.size();
-        if (count == 0) continue;
-        draw(flat.parts[i], count, first);
-        first += count;
-        ++calls;
-    }
+    for (const MeshBuffers::Run& run : flat.runs().shore) flat.draw(run);
     glDepthRange(0, 1);
-    return calls;
+    return static_cast<int>(flat.runs().shore.size());
 }
 
 }  // namespace relevo::viewer

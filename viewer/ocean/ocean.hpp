@@ -16,6 +16,7 @@
 #include "lod/view.hpp"
 #include "viewer/gl_object.hpp"
 #include "viewer/ground/ground_textures.hpp"
+#include "viewer/ocean/mesh_buffers.hpp"
 #include "viewer/ocean/ocean_settings.hpp"
 #include "viewer/ocean/ripples.hpp"
 #include "viewer/ocean/water_pages.hpp"
@@ -64,15 +65,6 @@ class Ocean {
     void use_mesh(OceanKind kind, std::unique_ptr<lod::OceanMesh> mesh);
 
   private:
-    struct Buffers {
-        std::unique_ptr<lod::OceanMesh> mesh;
-        GlBuffer vertices, indices, copies;
-        GlVertexArray array;
-        struct Part {
-            int first_vertex, first_index, indices, vertices;
-        };
-        std::vector<Part> parts;  // of each patch
-    };
     struct Variant {
         OceanKind kind;
         bool shore, sky, probe, map, fill;
@@ -87,10 +79,10 @@ class Ocean {
     void update_undulation(const lod::SeaView& sea, double sea_h_m);
     double sea_height(geo::LatLon place) const;
     double wave_height(const glm::dvec2& at, double time_s) const;
-    Buffers& buffers(OceanKind kind);
-    void upload(const lod::OceanPicture& picture, const Buffers& to) const;
-    void bind(const Buffers& buffers) const;
-    static void draw(const Buffers::Part& part, std::size_t count, std::size_t first);
+    const lod::OceanMesh& mesh(OceanKind kind);
+    MeshBuffers& buffers(OceanKind kind);
+    /// Makes a mesh's copies, and all that its programs read, what is drawn from.
+    MeshBuffers& bind(OceanKind kind, const lod::OceanPicture& picture);
     Result<GlName> program(const Variant& variant);
     void make_objects();
     void bake_ripples(double time_s);
@@ -112,7 +104,9 @@ class Ocean {
     bool ripples_baked_ = false;
     std::optional<lod::SeaChart> chart_;
 
-    std::map<OceanKind, Buffers> buffers_;
+    // `off` is the flat grid of `fill`.
+    std::map<OceanKind, std::unique_ptr<lod::OceanMesh>> meshes_;
+    std::map<OceanKind, MeshBuffers> buffers_;
     std::map<Variant, GlProgram> programs_;
     /// Of the last picture, for `fill`.
     struct {

@@ -107,8 +107,7 @@ void main() {
     // A little more than the ground leaves.
     bool is_land = water_at(place) < -0.1;
 #ifdef FILL
-    // What neither has drawn at a shore. But beyond the data there is no ground, and voids stay empty.
-    if (at_place(sea, page_place(grid, cell, 4.0 * max(max(steps.x, steps.y), 1.0))).r <= 0.0) discard;
+    // What neither has drawn. But beyond the data there is no ground, and voids stay empty.
     vec2 away = abs(turned(water.grid) - grid);
     is_land = is_land && max(away.x, away.y) > 0.0;
 #ifdef VOIDS
