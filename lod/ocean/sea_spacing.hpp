@@ -12,7 +12,7 @@ namespace relevo::lod {
 /// the waves (wave_error.hpp, wave_map_error.hpp).
 class SeaSpacing {
   public:
-    /// \param focal_px  of the picture, at its corner (lod::View::ErrorScale has it)
+    /// \param focal_px  pixels of a metre of height a metre away (height_px of sea_view.hpp)
     SeaSpacing(const Waves& waves, double focal_px, double error_px, double radius_m);
     /// \param bound_m    the bound, metres, of a spacing
     /// \param longest_m  a mesh of this spacing draws nothing of the waves; 0: a still sea

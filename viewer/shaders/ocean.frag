@@ -97,7 +97,7 @@ void main() {
 #endif
     // From below: a window of sky above the eye, around it the deep.
     if (flat_facing < 0.0 && ocean.nadir_up.w < water.wave.z)
-        shown = mix(kDeep * 1.6, sky_in(1.0), pow(max(-flat_facing, 0.0), 3.0)) * day;
+        shown = mix(kDeep * 1.6, kZenithColour, -flat_facing * flat_facing * flat_facing) * day;
 #ifdef SKY
     shown = mix(shown, kHazeColour * day, water.body.a);
 #endif
