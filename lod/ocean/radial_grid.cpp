@@ -31,14 +31,18 @@ RadialShape radial_shape(double first_m, double last_m, double exponent, int rin
 
 double RadialRings::spacing_m(std::size_t block) const {
     const double radius = blocks[block].radius_m;
-    // Of the cells between this ring and the next inwards or outwards.
+    // Of the cells between this ring and the next one inwards or outwards.
     const auto across = [&](std::size_t from) {
         const double inner = blocks[from].radius_m, outer = blocks[from + 1].radius_m;
         if (blocks[from].growth == Growth::factor)
             return radius * std::log(outer / inner) / RadialGrid::kBlockCells;
-        const double even = (outer - inner) / RadialGrid::kBlockCells;
-        // Rings of a power are farther apart at the block's outer end.
-        return blocks[from].growth == Growth::even ? even : even * std::max(exponent, 1.0);
+        if (blocks[from].growth == Growth::even) return (outer - inner) / RadialGrid::kBlockCells;
+        const double first = blocks.front().radius_m;
+        const auto last = static_cast<double>((blocks.size() - 1) * RadialGrid::kBlockCells);
+        const auto ring = static_cast<double>(block * RadialGrid::kBlockCells);
+        const double growth_m = (blocks.back().radius_m - first) / std::pow(last, exponent);
+        return growth_m *
+               std::abs(std::pow(ring + (from == block ? 1 : -1), exponent) - std::pow(ring, exponent));
     };
     double spacing = kTurn * radius / sectors;
     if (block > 0) spacing = std::max(spacing, across(block - 1));

@@ -47,6 +47,20 @@ TEST(RadialReference, EndsAreTheDistancesThatAreGiven) {
     EXPECT_EQ(RadialShape{}.exponent, 2);
 }
 
+TEST(RadialReference, SpacingIsThatOfItsCells) {
+    const RadialShape shape = radial_shape(0.5, 5048, 2, 257, 128);
+    const RadialRings rings = rings_of(shape);
+    ASSERT_EQ(rings.blocks.size(), 17U);
+    for (std::size_t block = 0; block < rings.blocks.size(); ++block) {
+        const int ring = 16 * static_cast<int>(block);
+        EXPECT_NEAR(rings.blocks[block].radius_m, shape.radius_m(ring), 1e-9);
+        const double outward = ring < 256 ? shape.radius_m(ring + 1) - shape.radius_m(ring)
+                                          : shape.radius_m(ring) - shape.radius_m(ring - 1);
+        const double around = 2 * std::numbers::pi * shape.radius_m(ring) / shape.sectors;
+        EXPECT_NEAR(rings.spacing_m(block), std::max(outward, around), 1e-9) << ring;
+    }
+}
+
 TEST(RadialGrid, KeepsToTheSpacingFromTheNadirToTheHorizon) {
     for (const double height : {2.0, 50.0, 2e3, 5e4, 1e7}) {
         const Trial trial(height);
