@@ -23,7 +23,9 @@ constexpr int kGrowth = (1 + 2 * kRings) / (1 + 2 * kHole);
 /// quarter of the error.
 GeoclipmapShape flat_shape(const SeaView& sea, const SeaSpacing& spacing) {
     const int across = static_cast<int>(std::ceil(std::sqrt(4 * spacing.focal_px() / spacing.error_px())));
-    const int rings = std::max(across / 2, 1);
+    // The shader has numbers for so many; for errors that are next to nothing the sea is coarser than asked.
+    constexpr int kMostRings = OceanPicture::kMostNumbers / Geoclipmap::kRingNumbers - 1;
+    const int rings = std::clamp(across / 2, 1, kMostRings);
     GeoclipmapShape shape;
     const double block_m = 2 * sea.reach_m / blocks_a_side(rings);
     for (int ring = 0; ring <= rings; ++ring) shape.rings.push_back({0, ring, block_m, 1});

@@ -82,7 +82,8 @@ RadialRings rings_for(const SeaView& sea, const SeaSpacing& spacing) {
         made.blocks.push_back({radius, RadialRings::Growth::factor});
         radius = outer;
     }
-    made.blocks.push_back({radius, RadialRings::Growth::factor});
+    // Where an error of next to nothing took all the blocks, the last one still reaches the horizon.
+    made.blocks.push_back({std::max(radius, sea.reach_m), RadialRings::Growth::factor});
     made.sectors = round_up(sectors, RadialGrid::kBlockCells);
     return made;
 }

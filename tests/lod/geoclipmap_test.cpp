@@ -216,6 +216,14 @@ TEST(Geoclipmap, AFlatSeaIsTwoTrianglesABlock) {
     }
 }
 
+TEST(Geoclipmap, HasNumbersForAllItsRingsWhateverTheErrorIs) {
+    for (const double wind : {0.0, 8.0}) {
+        const Trial trial(camera(20), wind, 1e-6);
+        const auto rings = geoclipmap_shape_for(trial.sea, trial.spacing).rings.size();
+        EXPECT_LE(rings * Geoclipmap::kRingNumbers, OceanPicture::kMostNumbers);
+    }
+}
+
 TEST(Geoclipmap, BlocksOverLandAndOutOfViewAreNotDrawn) {
     const Geoclipmap mesh;
     const auto count = [&](const OceanPicture& picture) {

@@ -75,6 +75,14 @@ TEST(RadialGrid, KeepsToTheSpacingFromTheNadirToTheHorizon) {
     }
 }
 
+TEST(RadialGrid, ReachesTheHorizonWhateverTheErrorIs) {
+    const Trial trial(20);
+    const SeaSpacing next_to_nothing(trial.waves, height_px(trial.view), 1e-6, 6371e3);
+    const RadialRings rings = rings_for(trial.sea, next_to_nothing);
+    EXPECT_GE(rings.blocks.back().radius_m, trial.sea.reach_m);
+    EXPECT_LT(rings.blocks.size(), OceanPicture::kMostNumbers);
+}
+
 TEST(RadialGrid, CoversTheWholeCircleOnce) {
     const RadialShape shape = radial_shape(1, 2000, 2, 65, 64);
     const RadialGrid mesh(shape);
