@@ -58,7 +58,9 @@ RadialRings rings_of(const RadialShape& shape) {
 }
 
 RadialRings rings_for(const SeaView& sea, const SeaSpacing& spacing) {
-    const auto allowed = [&](double radius_m) { return spacing.at(sea.error_distance_m(radius_m)); };
+    const auto allowed = [&](double radius_m) {
+        return spacing.at(RadialGrid::kSlack * sea.error_distance_m(radius_m));
+    };
     RadialRings made;
     double sectors = kFewestSectors;
     // The fan's edges are as long as the first cells'.

@@ -56,6 +56,9 @@ RadialRings rings_for(const SeaView& sea, const SeaSpacing& spacing);
 class RadialGrid final : public OceanMesh {
   public:
     static constexpr int kBlockCells = 16;
+    /// Of the error, what its spacing is chosen for: there are as many sectors as the narrowest place takes,
+    /// elsewhere cells are slimmer than the error's bound supposes (docs/ocean.md says what is drawn).
+    static constexpr double kSlack = 1.3;
 
     RadialGrid();
     /// Of a given shape, whatever the view.

@@ -13,9 +13,6 @@ constexpr double kFinest = 0.01;  // metres
 constexpr double kStep = 1.05;
 /// Of the pixels of error, for the sagging of triangles under the curved sea.
 constexpr double kCurvaturePart = 0.1;
-/// The bound for the waves is of lattices seen from the side at the picture's corner; what is drawn stays
-/// under 0.8 of it (docs/ocean.md).
-constexpr double kWavesPart = 1.1;
 /// No mesh is coarser: triangles that reach far behind what they cover are clipped and culled badly.
 constexpr double kCoarsestSlope = 0.25;
 
@@ -39,7 +36,7 @@ SeaSpacing::SeaSpacing(const std::function<double(double)>& bound_m, double long
 }
 
 bool SeaSpacing::flat_from(double distance_m) const {
-    return errors_.empty() || errors_.back() <= kWavesPart * error_px_ * distance_m / focal_px_;
+    return errors_.empty() || errors_.back() <= error_px_ * distance_m / focal_px_;
 }
 
 double SeaSpacing::at(double distance_m) const {
@@ -47,9 +44,8 @@ double SeaSpacing::at(double distance_m) const {
     // A chord of length s lies s^2 / 8R below the sphere.
     double spacing =
         std::min(std::sqrt(8 * radius_m_ * kCurvaturePart * error_m), kCoarsestSlope * distance_m);
-    const double waves_m = kWavesPart * error_m;
-    if (!errors_.empty() && errors_.back() > waves_m) {
-        const auto beyond = std::upper_bound(errors_.begin(), errors_.end(), waves_m);
+    if (!errors_.empty() && errors_.back() > error_m) {
+        const auto beyond = std::upper_bound(errors_.begin(), errors_.end(), error_m);
         const auto step = std::max<std::ptrdiff_t>(beyond - errors_.begin() - 1, 0);
         spacing = std::min(spacing, kFinest * std::pow(kStep, static_cast<double>(step)));
     }

@@ -267,7 +267,8 @@ TEST(PageTexels, GoOnBeyondTheDataAndKnowTheirVoids) {
             const auto* line = texels.posts.data() + row * 257;
             for (int column = last + 1; column < 257; ++column) {
                 EXPECT_EQ(line[column], line[last]);
-                EXPECT_EQ(texels.sea[static_cast<std::size_t>(row * 257 + column)], 255);
+                const viewer::PageTexels::Shore at_sea{255, 0};
+                EXPECT_EQ(texels.shore[static_cast<std::size_t>(row * 257 + column)], at_sea);
             }
             for (int column = 0; column <= last; ++column) {
                 if (line[column][3] == 0) continue;

@@ -98,7 +98,7 @@ void GroundPages::put(PageLoader::Loaded loaded) {
     // Wanted pages never outnumber the slots, so that one that is wanted finds one.
     if (const auto slot = slots_.place(loaded.page, wanted)) {
         fill_(*slot, *loaded.texels);
-        sea_[static_cast<std::size_t>(*slot)] = page_sea(loaded.texels->sea);
+        sea_[static_cast<std::size_t>(*slot)] = PageSea(loaded.texels->shore);
         if (wanted && missing_ > 0) --missing_;
     }
 }

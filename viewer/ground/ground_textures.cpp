@@ -13,7 +13,7 @@ namespace {
 // As in shaders/ground.glsl.
 constexpr GLuint kPostsUnit = 0;
 constexpr GLuint kCellsUnit = 1;
-constexpr GLuint kSeaUnit = 3;
+constexpr GLuint kShoreUnit = 3;
 constexpr GLuint kTableUnit = 4;
 
 constexpr std::chrono::microseconds kUploadTime{2000};
@@ -46,7 +46,7 @@ Result<GroundTextures> GroundTextures::create(const lod::Terrain& terrain, const
     made.facts_ = data.facts;
     const int slots = slot_count(data);
     made.posts_ = make_array(GL_RGBA16_SNORM, kPagePosts, slots, GL_LINEAR);
-    if (data.facts.has_sea) made.sea_ = make_array(GL_R8, kPagePosts, slots, GL_LINEAR);
+    if (data.facts.has_sea) made.shore_ = make_array(GL_RG8, kPagePosts, slots, GL_LINEAR);
     if (data.facts.has_voids) made.cells_ = make_array(GL_R8UI, kPageCells, slots, GL_NEAREST);
     const std::size_t entries = PageTable(data.pyramid->top()).entries().size();
     made.table_entries_ = GlBuffer::create();
@@ -56,14 +56,14 @@ Result<GroundTextures> GroundTextures::create(const lod::Terrain& terrain, const
     glTextureBuffer(made.table_.name(), GL_R32UI, made.table_entries_.name());
     if (auto done = gl_check("making room for the terrain's normals"); !done) return done.error();
 
-    const auto fill = [posts = made.posts_.name(), sea = made.sea_.name(), cells = made.cells_.name()](
+    const auto fill = [posts = made.posts_.name(), shore = made.shore_.name(), cells = made.cells_.name()](
                           int slot, const PageTexels& texels) {
         glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
         glTextureSubImage3D(posts, 0, 0, 0, slot, kPagePosts, kPagePosts, 1, GL_RGBA, GL_SHORT,
                             texels.posts.data());
-        if (sea != 0)
-            glTextureSubImage3D(sea, 0, 0, 0, slot, kPagePosts, kPagePosts, 1, GL_RED, GL_UNSIGNED_BYTE,
-                                texels.sea.data());
+        if (shore != 0)
+            glTextureSubImage3D(shore, 0, 0, 0, slot, kPagePosts, kPagePosts, 1, GL_RG, GL_UNSIGNED_BYTE,
+                                texels.shore.data());
         if (cells != 0)
             glTextureSubImage3D(cells, 0, 0, 0, slot, kPageCells, kPageCells, 1, GL_RED_INTEGER,
                                 GL_UNSIGNED_BYTE, texels.cells.data());
@@ -99,7 +99,7 @@ void GroundTextures::upload_table() {
 
 void GroundTextures::bind() const {
     glBindTextureUnit(kPostsUnit, posts_.name());
-    glBindTextureUnit(kSeaUnit, sea_.name());
+    glBindTextureUnit(kShoreUnit, shore_.name());
     glBindTextureUnit(kCellsUnit, cells_.name());
     glBindTextureUnit(kTableUnit, table_.name());
 }

@@ -42,7 +42,7 @@ class GroundTextures {
 
     GroundFacts facts_;
     GlTexture posts_;
-    GlTexture sea_;    // only where there is sea
+    GlTexture shore_;  // only where there is sea
     GlTexture cells_;  // only where there are voids
     GlBuffer table_entries_;
     GlTexture table_;  // the same, as shaders take it

@@ -4,28 +4,30 @@
 #include <cstdint>
 #include <vector>
 
-#include "viewer/ground/page.hpp"
+#include "viewer/ground/page_texels.hpp"
 
 namespace relevo::viewer {
 
-/// What parts of a page have sea, and what parts land: squares of kPartCells cells, borders included.
-struct PageSea {
-    static constexpr int kPartCells = 4;
-    static constexpr int kParts = kPageCells / kPartCells;  ///< along a side
-
-    struct Part {
+/// Which of a page's posts are sea.
+class PageSea {
+  public:
+    struct Content {
         bool sea = false;
         bool land = false;
     };
-    std::array<Part, std::size_t{kParts} * kParts> parts;
-    Part all;
 
-    const Part& at(int column, int row) const {
-        return parts[static_cast<std::size_t>(row * kParts + column)];
-    }
+    /// \param shore  of the page's texels; empty: no sea
+    explicit PageSea(const std::vector<PageTexels::Shore>& shore = {});
+
+    /// Of the posts between these, themselves included.
+    Content in(int west, int north, int east, int south) const;
+
+    const Content& all() const { return all_; }
+
+  private:
+    static constexpr int kWords = kPagePosts / 64 + 1;
+    std::vector<std::array<std::uint64_t, kWords>> rows_;  // a bit a post; empty: no sea
+    Content all_;
 };
-
-/// \param is_sea  a page's posts: not 0 where there is sea; empty: nowhere
-PageSea page_sea(const std::vector<std::uint8_t>& is_sea);
 
 }  // namespace relevo::viewer

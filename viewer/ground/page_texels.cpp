@@ -19,7 +19,8 @@ int last_inside(int page, int level, int data_posts, int page_posts) {
 }  // namespace
 
 std::size_t page_bytes(const GroundFacts& facts) {
-    return kPosts * (sizeof(PageTexels::Post) + (facts.has_sea ? 1 : 0)) + (facts.has_voids ? kCells : 0);
+    return kPosts * (sizeof(PageTexels::Post) + (facts.has_sea ? sizeof(PageTexels::Shore) : 0)) +
+           (facts.has_voids ? kCells : 0);
 }
 
 PageTexels page_texels(const Page& page, const lod::GroundPosts& posts, const geo::GridFrame& frame,
@@ -31,7 +32,7 @@ PageTexels page_texels(const Page& page, const lod::GroundPosts& posts, const ge
 
     PageTexels made;
     made.posts.resize(kPosts);
-    if (facts.has_sea) made.sea.resize(kPosts);
+    if (facts.has_sea) made.shore.resize(kPosts);
     for (int row = 0; row < kPagePosts; ++row) {
         const int from = std::min(row, last_row);
         const float* heights = posts.heights.row(from);
@@ -45,9 +46,13 @@ PageTexels page_texels(const Page& page, const lod::GroundPosts& posts, const ge
         }
         std::fill(out + last_column + 1, out + kPagePosts, out[last_column]);
         if (!facts.has_sea) continue;
-        std::uint8_t* sea = made.sea.data() + static_cast<std::ptrdiff_t>(row) * kPagePosts;
-        std::copy_n(posts.is_sea.row(from), last_column + 1, sea);
-        std::fill(sea + last_column + 1, sea + kPagePosts, sea[last_column]);
+        const std::uint8_t* is_sea = posts.is_sea.row(from);
+        PageTexels::Shore* shore = made.shore.data() + static_cast<std::ptrdiff_t>(row) * kPagePosts;
+        for (int column = 0; column <= last_column; ++column) {
+            const bool is_low = is_sea[column] == 0 && heights[column] < PageTexels::kSeaLevel;
+            shore[column] = {is_sea[column], static_cast<std::uint8_t>(is_low ? 255 : 0)};
+        }
+        std::fill(shore + last_column + 1, shore + kPagePosts, shore[last_column]);
     }
     if (!facts.has_voids) return made;
     made.cells.resize(kCells);

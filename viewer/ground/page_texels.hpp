@@ -19,8 +19,13 @@ struct PageTexels {
     /// Normal along row and up column; H from -1 (lowest) to 1 (highest); validity.
     using Post = std::array<std::int16_t, 4>;
 
+    /// 255 or 0: is it of the class sea? Is it land no higher than kSeaLevel?
+    using Shore = std::array<std::uint8_t, 2>;
+    /// Metres: what is higher rises above the sea, whatever rounding makes of its 0 (shaders/shore.glsl).
+    static constexpr float kSeaLevel = 0.3F;
+
     std::vector<Post> posts;          ///< kPagePosts a side
-    std::vector<std::uint8_t> sea;    ///< likewise: 255 at posts of the class sea, else 0; only with has_sea
+    std::vector<Shore> shore;         ///< likewise; only with has_sea
     std::vector<std::uint8_t> cells;  ///< kPageCells a side: 0 where a corner is void; only with has_voids
 };
 

@@ -296,7 +296,7 @@ Result<OceanFigures> Ocean::draw(const lod::View& view, const OceanSettings& set
     if (!shore) return shore.error();
     const OceanBlock block =
         ocean_block(sea, sea_h_m, kUndulationReach, waves_seen && !map_ ? waves_ : lod::Waves(), *ripples_,
-                    *terrain_, ground_->facts(), settings, look.sun);
+                    *terrain_, settings, look.sun);
     glNamedBufferSubData(block_.name(), 0, sizeof(block), &block);
     figures.kind = kind;
     figures.arrange_ms = ms_since(start);

@@ -39,8 +39,8 @@ glm::dvec3 to_sun(const SunSetting& sun, const geo::Geodetic& eye) {
 }  // namespace
 
 OceanBlock ocean_block(const lod::SeaView& sea, double sea_h_m, double reach, const lod::Waves& waves,
-                       const Ripples& ripples, const lod::Terrain& terrain, const GroundFacts& facts,
-                       const OceanSettings& settings, const SunSetting& sun) {
+                       const Ripples& ripples, const lod::Terrain& terrain, const OceanSettings& settings,
+                       const SunSetting& sun) {
     const geo::Geodetic& eye = sea.view.camera().eye;
     const lod::SeaChart& chart = sea.chart;
     const glm::dvec2 nadir = sea.nadir / chart.radius_m();
@@ -55,11 +55,11 @@ OceanBlock ocean_block(const lod::SeaView& sea, double sea_h_m, double reach, co
     block.grid = grid_of(terrain, {eye.lat, eye.lon});
     const geo::GridFrame& grid = terrain.frame();
     const auto spacing = grid.spacing({0.5 * (grid.columns - 1), 0.5 * (grid.rows - 1)});
-    block.depth = glm::dvec4(std::min(spacing.column_m, spacing.row_m), facts.sea_is_level ? 1 : 0, 0, 0);
     const glm::dvec3 light = to_sun(sun, eye);
     const double daylight = std::clamp((glm::dot(light, sea.up) + 0.10) / 0.25, 0.0, 1.0);
     block.sun = vec4(light, daylight * daylight * (3 - 2 * daylight));
-    block.slopes = glm::dvec4(lod::cox_munk_slope_variance(settings.wind.speed_m_s), 0, 0, 0);
+    block.slopes = glm::dvec4(lod::cox_munk_slope_variance(settings.wind.speed_m_s),
+                              std::min(spacing.column_m, spacing.row_m), 0, 0);
     for (int layer = 0; layer < Ripples::kLayers; ++layer) {
         const double tile = Ripples::tile_m(layer);
         const double turned = Ripples::turned(layer);

@@ -7,7 +7,6 @@
 #include "lod/ocean/sea_view.hpp"
 #include "lod/ocean/waves.hpp"
 #include "lod/terrain.hpp"
-#include "viewer/ground/ground_data.hpp"
 #include "viewer/ocean/ocean_settings.hpp"
 #include "viewer/ocean/ripples.hpp"
 #include "viewer/sun_setting.hpp"
@@ -20,7 +19,6 @@ struct OceanBlock {
     glm::vec4 nadir_up, nadir_east, nadir_north;
     glm::vec4 level;
     glm::vec4 grid;
-    glm::vec4 depth;
     glm::vec4 sun;
     glm::vec4 slopes;
     std::array<glm::vec4, Ripples::kLayers> ripples, steepest;
@@ -30,7 +28,7 @@ struct OceanBlock {
 /// \param sea_h_m  height of the sea above the ellipsoid at the nadir
 /// \param reach    of the undulation's outermost texel from its texture's middle, in parts of the texture
 OceanBlock ocean_block(const lod::SeaView& sea, double sea_h_m, double reach, const lod::Waves& waves,
-                       const Ripples& ripples, const lod::Terrain& terrain, const GroundFacts& facts,
-                       const OceanSettings& settings, const SunSetting& sun);
+                       const Ripples& ripples, const lod::Terrain& terrain, const OceanSettings& settings,
+                       const SunSetting& sun);
 
 }  // namespace relevo::viewer

@@ -7,7 +7,7 @@ namespace relevo::viewer {
 
 namespace {
 
-PageSea::Part either(const PageSea::Part& a, const PageSea::Part& b) {
+PageSea::Content either(const PageSea::Content& a, const PageSea::Content& b) {
     return {a.sea || b.sea, a.land || b.land};
 }
 
@@ -27,7 +27,7 @@ void WaterPages::fill(const std::vector<Shown>& shown) {
     for (const auto& [page, sea] : shown) {
         State& state = states_[index(page)];
         state.own = sea;
-        state.below = sea->all;
+        state.below = sea->all();
     }
     for (auto at = shown.rbegin(); at != shown.rend(); ++at) {
         const Page& page = at->page;
@@ -37,38 +37,43 @@ void WaterPages::fill(const std::vector<Shown>& shown) {
     }
 }
 
-void WaterPages::add(const Rectangle& cells, const Page& page, Content& content) const {
-    const State& here = states_[index(page)];
+WaterPages::Rectangle WaterPages::cells_of(const Page& page) {
     const double side = static_cast<double>(kPageCells << page.level);
     const double west = page.column * side;
     const double north = page.row * side;
-    if (cells.east < west || cells.west > west + side || cells.south < north || cells.north > north + side)
-        return;
-    const bool news = (here.below.sea && !content.sea) || (here.below.land && !content.land);
-    if (!news) return;
-    const auto child = [&](int i) {
-        return Page{page.level - 1, 2 * page.column + (i & 1), 2 * page.row + (i >> 1)};
+    return {west, north, west + side, north + side};
+}
+
+void WaterPages::add_own(const Rectangle& cells, const Page& page, Content& content) const {
+    const State& here = states_[index(page)];
+    if (here.own == nullptr) return;
+    const Rectangle whole = cells_of(page);
+    const double apart = static_cast<double>(1 << page.level);
+    const auto before = [&](double at) {
+        return std::clamp(static_cast<int>(std::floor(at / apart)), 0, kPageCells);
     };
-    // What of the finer pages is not there is drawn from this one.
-    bool whole = page.level > 0;
-    for (int i = 0; whole && i < 4; ++i)
-        whole = states_[index(child(i))].own != nullptr || !has_data(child(i), frame_);
-    if (!whole && here.own != nullptr) {
-        const double part = side / PageSea::kParts;
-        const auto clamped = [](double at) {
-            return std::clamp(static_cast<int>(std::floor(at)), 0, PageSea::kParts - 1);
-        };
-        for (int row = clamped((cells.north - north) / part); row <= clamped((cells.south - north) / part);
-             ++row) {
-            for (int column = clamped((cells.west - west) / part);
-                 column <= clamped((cells.east - west) / part); ++column)
-                content = either(content, here.own->at(column, row));
-            if ((content.sea || !here.own->all.sea) && (content.land || !here.own->all.land)) break;
-        }
-    }
-    if (page.level == 0) return;
+    const auto after = [&](double at) {
+        return std::clamp(static_cast<int>(std::ceil(at / apart)), 0, kPageCells);
+    };
+    content = either(content, here.own->in(before(cells.west - whole.west), before(cells.north - whole.north),
+                                           after(cells.east - whole.west), after(cells.south - whole.north)));
+}
+
+void WaterPages::add(const Rectangle& cells, const Page& page, Content& content) const {
+    const Content& below = states_[index(page)].below;
+    const bool news = (below.sea && !content.sea) || (below.land && !content.land);
+    if (!news) return;
+    if (page.level == 0) return add_own(cells, page, content);
     for (int i = 0; i < 4; ++i) {
-        if (states_[index(child(i))].own != nullptr) add(cells, child(i), content);
+        const Page child{page.level - 1, 2 * page.column + (i & 1), 2 * page.row + (i >> 1)};
+        const Rectangle quarter = cells_of(child);
+        const Rectangle asked{std::max(cells.west, quarter.west), std::max(cells.north, quarter.north),
+                              std::min(cells.east, quarter.east), std::min(cells.south, quarter.south)};
+        if (asked.west > asked.east || asked.north > asked.south || !has_data(child, frame_)) continue;
+        if (states_[index(child)].own != nullptr)
+            add(asked, child, content);
+        else
+            add_own(asked, page, content);
     }
 }
 

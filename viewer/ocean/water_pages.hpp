@@ -25,8 +25,8 @@ class WaterPages {
     struct Rectangle {
         double west, north, east, south;
     };
-    /// Is any sea there, any land? Parts of pages (page_sea.hpp) count whole.
-    using Content = PageSea::Part;
+    /// Is any sea there, any land? Cells count with their corners.
+    using Content = PageSea::Content;
     Content in(const Rectangle& cells) const {
         Content content;
         add(cells, Page{top_, 0, 0}, content);
@@ -38,7 +38,10 @@ class WaterPages {
         const PageSea* own = nullptr;  // of the page itself; null: it is not there
         Content below;                 // of it and of all pages below it that are shown
     };
+    static Rectangle cells_of(const Page& page);
+    /// What the page and the finer ones that stand for parts of it have there; of the page alone.
     void add(const Rectangle& cells, const Page& page, Content& content) const;
+    void add_own(const Rectangle& cells, const Page& page, Content& content) const;
     std::size_t index(const Page& page) const;
 
     geo::GridFrame frame_;

@@ -33,7 +33,8 @@ void main() {
     vec2 grid = in_data(water.grid);
     ivec2 cell = cell_at(grid);
     vec2 steps = max(abs(dFdx(water.grid)), abs(dFdy(water.grid)));
-    PagePlace place = page_place(grid, cell, max(steps.x, steps.y));
+    float apart = max(steps.x, steps.y);
+    PagePlace place = page_place(grid, cell, apart);
 #endif
 #ifdef PROBE
 #ifdef FILL
@@ -66,12 +67,10 @@ void main() {
     vec3 body = water.body.rgb;
 #ifdef SHORE
     vec3 bed = kSand;
-#ifndef BED
-    float depth = depth_at(grid, max(steps.x, steps.y) * ocean.depth.x);
-#else
+    float depth = depth_at(grid, cell, apart, place);
+#ifdef BED
     vec4 ground = at_place(posts, place);
     ground /= max(ground.a, 1e-3);
-    float depth = -(ground.z * SCENE_HALF + SCENE_MIDDLE);
     bed *= clamp(0.75 + 0.75 * (ground.y - ground.x), 0.3, 1.3);  // light from the north-west, as on the land
 #endif
     depth += water.wave.z;
@@ -111,7 +110,7 @@ void main() {
     vec2 away = abs(turned(water.grid) - grid);
     is_land = is_land && max(away.x, away.y) > 0.0;
 #ifdef VOIDS
-    if (!is_whole(cell, max(steps.x, steps.y))) discard;
+    if (!is_whole(cell, apart)) discard;
 #endif
 #endif
     if (is_land) discard;

@@ -12,9 +12,8 @@ layout(std140, binding = 1) uniform Ocean {
     vec4 level;         // of the sea above the ellipsoid at the nadir; how far the sea is seen; largest texel of `undulation`
                         // from its middle, 0 to 0.5; waves
     vec4 grid;          // column and row of the nadir; posts a radian (geographic) or a unit of the plane (POLE)
-    vec4 depth;         // metres a post; 1: the sea has no bed of its own
     vec4 sun;           // ECEF; w: daylight
-    vec4 slopes;        // variance of the sea's slope
+    vec4 slopes;        // variance of the sea's slope; metres a post
     vec4 ripples[kRippleLayers];   // of each layer: where the nadir is in a tile; the tile's east, tiles a metre long
     vec4 steepest[kRippleLayers];  // its largest slope
     vec4 waves[2 * kMostWaves];  // k (rad/m, chart), amplitude, phase at the nadir and now; length
@@ -44,19 +43,18 @@ vec2 turned(vec2 grid) {
 // Beyond the data the sea goes on as it is on the data's border.
 vec2 in_data(vec2 grid) { return clamp(turned(grid), vec2(0.0), frame.grid.xy); }
 
-// Depth of the water, metres, from posts so far apart (metres). Where the data has no bed under its sea: a metre for every
-// twenty from the shore, as far as coarser and coarser posts tell how far that is; farther out waves feel no bed.
-float depth_at(vec2 inside, float metres) {
-    ivec2 cell = cell_at(inside);
-    float apart = max(metres / ocean.depth.x, 1e-3);
-    if (ocean.depth.y < 0.5) return -ground_height(page_place(inside, cell, apart));
-    float shore = 0.0;
-    float reach = 1.0;
-    float open_sea = 0.0;
-    for (int level = 0; level < 4; ++level, reach *= 2.0) {
-        if (reach < 0.5 * apart && level < 3) continue;  // the first counts for those before
-        open_sea = at_place(sea, page_place(inside, cell, reach)).r;
-        shore += (shore > 0.0 ? 0.5 : 1.0) * reach * clamp(2.0 * open_sea - 1.0, 0.0, 1.0);
-    }
-    return 0.05 * ocean.depth.x * shore + 1000.0 * smoothstep(0.9, 1.0, open_sea);
+// Depth of the water, metres. Where the data has no bed under its sea: a metre for every twenty from the shore, as far as
+// these posts and coarser ones tell how far that is; farther out waves feel no bed.
+// apart: of the places that are asked for, in posts; here: the place among such.
+float depth_at(vec2 grid, ivec2 cell, float apart, PagePlace here) {
+#ifdef BED
+    return -ground_height(here);
+#else
+    const float kFar = 8.0;
+    float reach = clamp(apart, 1.0, kFar);
+    float near_sea = clamp(2.0 * at_place(shore, here).r - 1.0, 0.0, 1.0);
+    float far_sea = clamp(2.0 * at_place(shore, page_place(grid, cell, max(apart, kFar))).r - 1.0, 0.0, 1.0);
+    float open_sea = far_sea * far_sea * far_sea * far_sea;
+    return 0.05 * ocean.slopes.y * (reach * near_sea + (kFar - reach) * far_sea) + 1000.0 * open_sea * open_sea;
+#endif
 }

@@ -119,7 +119,10 @@ void main() {
     water.spacing = carried_spacing(here.z);
     water.up = ocean.nadir_up.xyz + sea.turn;
     water.grid = grid_at(sea.turn);
-    float depth = depth_at(in_data(water.grid), here.z);
+    vec2 grid = in_data(water.grid);
+    ivec2 cell = cell_at(grid);
+    float apart = max(here.z / ocean.slopes.y, 1e-3);
+    float depth = depth_at(grid, cell, apart, page_place(grid, cell, apart));
     vec3 wave = waves_at(here.xy, here.z, max(depth, 0.0));
     water.wave = vec4(wave, depth);
     water.offset = sea.offset + water.up * wave.z;

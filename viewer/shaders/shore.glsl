@@ -11,10 +11,7 @@ float ground_height(PagePlace at) {
 // the waterline is where the ground rises above it. Land that is not, a polder, is dry to half way to the next post of
 // sea.
 float water_at(PagePlace at) {
-    float share = at_place(sea, at).r;
-    float reach = share - 0.02;
-    vec4 is_land = vec4(lessThan(textureGather(sea, at.fine, 0), vec4(0.5)));
-    vec4 is_low = vec4(lessThan(textureGather(posts, at.fine, 2), vec4((0.3 - SCENE_MIDDLE) / SCENE_HALF)));
-    if (dot(is_land, is_low) > 0.0) reach = share - 0.5;
+    vec2 sea_and_low = at_place(shore, at).rg;
+    float reach = sea_and_low.r - (sea_and_low.g > 0.0 ? 0.5 : 0.02);
     return min(reach, 0.3 - ground_height(at));
 }

@@ -58,7 +58,7 @@ void main() {
     PagePlace place = page_place(surface.grid, cell, max(max(x.x, y.x), max(x.y, y.y)));
 #ifdef TINTED_SEA
     // The waterline is half way between a post of land and one of sea, and a pixel wide.
-    float share = at_place(sea, place).r;
+    float share = at_place(shore, place).r;
     float water = smoothstep(-0.7, 0.7, (share - 0.5) / max(fwidth(share), 1e-4));
 #endif
     vec4 here = at_place(posts, place);
