@@ -11,6 +11,8 @@ namespace relevo::lod {
 namespace {
 
 constexpr std::array<int, 5> kSides{17, 33, 65, 129, 256};
+/// Of the error, what cells are judged by: their longest edge is, and the other one is shorter.
+constexpr double kSlack = 1.3;
 
 /// Are all cells of a grid with so many vertices a side within the spacing? What lies on the horizon is not
 /// asked: its cells are as deep as the horizon is far, and hide behind each other.
@@ -27,7 +29,7 @@ bool keeps_to(const SeaView& sea, const SeaSpacing& spacing, const Projection& p
             if (std::max(glm::length(at), glm::length(above)) >= projection.reach_m) continue;
             const double longest =
                 std::max(glm::distance(at, above), glm::distance(at, place(projection, u + cell, v)));
-            if (longest > spacing.at(sea.error_distance_m(nearest))) return false;
+            if (longest > spacing.at(kSlack * sea.error_distance_m(nearest))) return false;
         }
     }
     return true;

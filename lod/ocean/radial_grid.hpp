@@ -43,8 +43,8 @@ struct RadialRings {
 RadialRings rings_of(const RadialShape& shape);
 
 /// The rings that keep to a spacing from the nadir to the horizon: evenly far apart as far as the eye is
-/// high, then each as far from the last as is allowed there. (A power of i as in equation 7 takes 2 to 6
-/// times as many: its cells are of another shape at each radius.)
+/// high, then each as far from the last as is allowed there. (A power of i as in equation 7 takes some
+/// four times as many: its cells are of another shape at each radius.)
 RadialRings rings_for(const SeaView& sea, const SeaSpacing& spacing);
 
 /// The radial grid of the reference, in blocks that can be culled: of kBlockCells sectors and as many rings.
