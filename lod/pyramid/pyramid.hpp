@@ -27,6 +27,12 @@ struct VertexPosts {
     Raster<std::uint16_t> radius;  ///< of the sphere's radius; 0: nothing valid below
 };
 
+/// The heights of a block's posts alone, metres.
+struct BlockHeights {
+    Raster<float> filled;  ///< voids and padding filled, for meshes alone
+    Raster<float> data;    ///< voids and padding NaN
+};
+
 /// What pictures need of them.
 struct GroundPosts {
     /// Along the row and up the column, of the unit normal of the surface, times 32767. At level 0 from the
@@ -60,6 +66,9 @@ class Pyramid {
 
     /// Likewise.
     virtual Result<GroundPosts> read_ground(const PyramidBlock& block) const = 0;
+
+    /// Likewise; what both others have of it, for less.
+    virtual Result<BlockHeights> read_heights(const PyramidBlock& block) const;
 };
 
 }  // namespace relevo::lod

@@ -25,6 +25,11 @@ namespace {
 using Box = BlockGrid::Box;
 
 constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
+
+bool is_void(float H) {
+    return std::isnan(H);
+}
+
 constexpr int kCells = Pyramid::kBlockCells;
 static_assert(kCells == LevelGrid::kCells);
 constexpr int kSide = kCells + 1;
@@ -91,6 +96,12 @@ struct ScenePyramid::State {
     Result<Raster<T>> read_posts(FineKey::Kind kind, Raster<T> FineBlock::*samples, const Box& box,
                                  T fill) const;
     Result<void> fill_even_posts(const PyramidBlock& own, const Box& window, Raster<float>& heights) const;
+    struct Window {
+        Box box;
+        Raster<float> data;
+        Raster<float> filled;
+    };
+    Result<Window> finest_window(const PyramidBlock& block, int halo) const;
     Result<VertexPosts> finest_vertices(const PyramidBlock& block, ErrorMetric metric) const;
     Result<GroundPosts> finest_ground(const PyramidBlock& block) const;
 };
@@ -185,6 +196,21 @@ Result<void> ScenePyramid::State::fill_even_posts(const PyramidBlock& own, const
     return {};
 }
 
+/// The block's posts and some around them.
+Result<ScenePyramid::State::Window> ScenePyramid::State::finest_window(const PyramidBlock& block,
+                                                                       int halo) const {
+    Window window{MetricTile::window_of(box_of(block), frame().padded_side(), halo), {}, {}};
+    auto data = read_posts(FineKey::Kind::heights, &FineBlock::heights, window.box, kVoid);
+    if (!data) return data.error();
+    window.data = *std::move(data);
+    window.filled = window.data;
+    if (std::ranges::any_of(window.filled.samples(), is_void)) {
+        if (auto done = fill_even_posts(block, window.box, window.filled); !done) return done.error();
+        fill_odd_posts({window.box.column, window.box.row}, frame().levels(), window.filled);
+    }
+    return window;
+}
+
 Result<VertexPosts> ScenePyramid::State::finest_vertices(const PyramidBlock& block,
                                                          ErrorMetric metric) const {
     VertexPosts posts{Raster<float>(kSide, kSide), Raster<std::uint16_t>(kSide, kSide),
@@ -193,20 +219,13 @@ Result<VertexPosts> ScenePyramid::State::finest_vertices(const PyramidBlock& blo
     // The vertices' diamonds reach one post beyond the block, and posts there lie between others where they
     // are void.
     constexpr int kHalo = 2;
+    const auto window = finest_window(block, kHalo);
+    if (!window) return window.error();
     const Box box = box_of(block);
-    const Box window = MetricTile::window_of(box, frame().padded_side(), kHalo);
-    const auto heights = read_posts(FineKey::Kind::heights, &FineBlock::heights, window, kVoid);
-    if (!heights) return heights.error();
-    Raster<float> filled = *heights;
-    const auto is_void = [](float H) { return std::isnan(H); };
-    if (std::ranges::any_of(filled.samples(), is_void)) {
-        if (auto done = fill_even_posts(block, window, filled); !done) return done.error();
-        fill_odd_posts({window.column, window.row}, frame().levels(), filled);
-    }
-    const Box inside{box.column - window.column, box.row - window.row, kSide, kSide};
-    posts.heights = part_of(filled, inside);
-    if (std::ranges::all_of(heights->samples(), is_void)) return posts;
-    const MetricTile tile(positions, undulations, window, *heights, filled);
+    const Box inside{box.column - window->box.column, box.row - window->box.row, kSide, kSide};
+    posts.heights = part_of(window->filled, inside);
+    if (std::ranges::all_of(window->data.samples(), is_void)) return posts;
+    const MetricTile tile(positions, undulations, window->box, window->data, window->filled);
     const bool bounded = metric == ErrorMetric::bounded;
     const MetricRasters codes =
         fine_metrics(tile, frame().levels(), 1, bounded ? ObjectErrors::both : ObjectErrors::incremental);
@@ -288,6 +307,32 @@ Result<GroundPosts> ScenePyramid::read_ground(const PyramidBlock& block) const {
         if (known == PostClass::sea) posts.is_sea.samples()[i] = 255;
     }
     return posts;
+}
+
+Result<BlockHeights> ScenePyramid::read_heights(const PyramidBlock& block) const {
+    const Scene& scene = state_->scene;
+    if (state_->whole) return state_->whole->read_heights(block);
+    const int parent = 1 << std::max(1 - block.level, 0);
+    if (!scene.has_level_block(std::max(block.level, 1), block.column / parent, block.row / parent))
+        return BlockHeights{Raster<float>(kSide, kSide), Raster<float>(kSide, kSide, kVoid)};
+    if (block.level == 0) {
+        // Posts at odd places lie between others where they are void.
+        const auto window = state_->finest_window(block, 2);
+        if (!window) return window.error();
+        const Box box = box_of(block);
+        const Box inside{box.column - window->box.column, box.row - window->box.row, kSide, kSide};
+        return BlockHeights{part_of(window->filled, inside), part_of(window->data, inside)};
+    }
+    auto heights = scene.read_level_heights(block.level, block.column, block.row);
+    if (!heights) return heights.error();
+    const auto ground = scene.read_level_ground(block.level, block.column, block.row);
+    if (!ground) return ground.error();
+    Raster<float> data = *heights;
+    for (std::size_t i = 0; i < data.samples().size(); ++i) {
+        if (ground->classes.samples()[i] == static_cast<std::uint8_t>(PostClass::void_post))
+            data.samples()[i] = kVoid;
+    }
+    return BlockHeights{*std::move(heights), std::move(data)};
 }
 
 }  // namespace relevo::lod

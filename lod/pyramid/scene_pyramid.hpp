@@ -30,6 +30,7 @@ class ScenePyramid final : public Pyramid {
     /// Where the scene has no bounded errors, the incremental ones stand in for them.
     Result<VertexPosts> read_vertices(const PyramidBlock& block, ErrorMetric metric) const override;
     Result<GroundPosts> read_ground(const PyramidBlock& block) const override;
+    Result<BlockHeights> read_heights(const PyramidBlock& block) const override;
 
   private:
     struct State;

@@ -34,6 +34,11 @@ class PostSet {
         return (w.fetch_or(bit(p), std::memory_order_relaxed) & bit(p)) == 0;
     }
 
+    /// Sets the 64 posts of a row from one whose column is a multiple of 64, for one caller only.
+    void set_word(const GridPoint& p, std::uint64_t bits) {
+        words_[word(p)].store(bits, std::memory_order_relaxed);
+    }
+
     /// Has the set any, and has it all, of the posts [first, last] of a row?
     struct Share {
         bool any = false;

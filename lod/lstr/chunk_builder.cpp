@@ -1,0 +1,360 @@
+#include "lod/lstr/chunk_builder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include <tbb/parallel_for.h>
+
+#include "lod/lstr/border_line.hpp"
+#include "lod/soar/cell.hpp"
+
+namespace relevo::lod {
+
+namespace {
+
+/// Of a level's error, what its borders may be off: the rest is for what lies between them.
+constexpr double kBorderPart = 0.5;
+
+bool is_before(const PlacedPost& a, const PlacedPost& b) {
+    return std::tie(a.at.row, a.at.column) < std::tie(b.at.row, b.at.column);
+}
+
+/// Of a post in a list that is row by row.
+std::uint32_t place_of(const std::vector<PlacedPost>& posts, const PlacedPost& post) {
+    return static_cast<std::uint32_t>(std::lower_bound(posts.begin(), posts.end(), post, is_before) -
+                                      posts.begin());
+}
+
+/// All posts of a node in two triangles a cell.
+PlanarMesh all_posts(const PostField& field, const ChunkId& id) {
+    const GridPoint first = id.first();
+    const int side = id.cells() + 1;
+    std::vector<PlacedPost> posts;
+    posts.reserve(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+    for (int row = 0; row < side; ++row) {
+        for (int column = 0; column < side; ++column)
+            posts.push_back(field.post({first.column + column, first.row + row}));
+    }
+    std::vector<IndexTriangle> triangles;
+    for (int row = first.row; row + 1 < first.row + side; ++row) {
+        for (int column = first.column; column + 1 < first.column + side; ++column) {
+            for (const CellTriangle& t : cell_triangles({column, row})) {
+                const auto index = [&](const GridPoint& p) {
+                    return static_cast<std::uint32_t>((p.row - first.row) * side + p.column - first.column);
+                };
+                triangles.push_back({index(t[0]), index(t[1]), index(t[2])});
+            }
+        }
+    }
+    return {std::move(posts), triangles, first, id.cells()};
+}
+
+/// The meshes of four children as one.
+PlanarMesh joined(const ChunkId& id, const std::array<ChunkShape, 4>& children) {
+    std::vector<PlacedPost> posts;
+    for (const ChunkShape& child : children)
+        posts.insert(posts.end(), child.posts.begin(), child.posts.end());
+    std::sort(posts.begin(), posts.end(), is_before);
+    posts.erase(std::unique(posts.begin(), posts.end(),
+                            [](const PlacedPost& a, const PlacedPost& b) { return a.at == b.at; }),
+                posts.end());
+    std::vector<IndexTriangle> triangles;
+    for (const ChunkShape& child : children) {
+        std::vector<std::uint32_t> place(child.posts.size());
+        for (std::size_t v = 0; v < place.size(); ++v) place[v] = place_of(posts, child.posts[v]);
+        for (const auto& [a, b, c] : child.triangles) triangles.push_back({place[a], place[b], place[c]});
+    }
+    return {std::move(posts), triangles, id.first(), id.cells()};
+}
+
+/// Largest error of what a plan puts in a vertex's place, or some error above the limit.
+double error_of(const PostField& field, const PlanarMesh& mesh, const PlanarMesh::Plan& plan,
+                double limit_m) {
+    double error = 0;
+    for (const IndexTriangle& t : plan.triangles) {
+        error = std::max(error, field.error(mesh.placed(plan, t), limit_m));
+        if (error > limit_m) break;
+    }
+    return error;
+}
+
+/// Of the ways to fill a vertex's place the first that is good enough, or the one with the least error; false
+/// where there is none. What is worse than the limit is only known to be so.
+bool best_plan(const PostField& field, const PlanarMesh& mesh, std::uint32_t vertex, double enough_m,
+               double limit_m, PlanarMesh::Plan& best, double& error_m) {
+    bool any = mesh.plan(vertex, best);
+    error_m = any ? error_of(field, mesh, best, limit_m) : INFINITY;
+    if (error_m <= enough_m) return true;
+    PlanarMesh::Plan fan = best;
+    for (std::uint32_t corner = 0; corner < fan.polygon.size(); ++corner) {
+        if (!mesh.plan_fan(corner, fan)) continue;
+        const double error = error_of(field, mesh, fan, std::min(error_m, limit_m));
+        if (any && error >= error_m) continue;
+        any = true;
+        error_m = error;
+        std::swap(best.triangles, fan.triangles);
+    }
+    return any;
+}
+
+/// Takes the posts off the sides that the level does not keep.
+void thin_border(const PostField& field, const ChunkId& id, double error_m, PlanarMesh& mesh) {
+    const GridPoint first = id.first();
+    for (int side = 0; side < kSides; ++side) {
+        const bool along_row = side >= 2;
+        const int line = (along_row ? first.row : first.column) + (side % 2 == 1 ? id.cells() : 0);
+        std::vector<std::uint32_t> vertices;
+        std::vector<const PlacedPost*> posts;
+        for (std::uint32_t v = 0; v < mesh.vertices(); ++v) {
+            const GridPoint& at = mesh.post(v).at;
+            if ((along_row ? at.row : at.column) != line) continue;
+            vertices.push_back(v);
+            posts.push_back(&mesh.post(v));
+        }
+        const std::vector<bool> kept = border_line(field, posts, error_m);
+        PlanarMesh::Plan plan;
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+            double error = 0;
+            if (!kept[i] && best_plan(field, mesh, vertices[i], error_m, INFINITY, plan, error))
+                mesh.take(vertices[i], plan);
+        }
+    }
+}
+
+/// Puts posts back inside where a thinner border has left errors greater than the limit.
+void mend(const PostField& field, double limit_m, PlanarMesh& mesh) {
+    std::vector<IndexTriangle> open = mesh.triangles();
+    while (!open.empty()) {
+        const IndexTriangle t = open.back();
+        open.pop_back();
+        if (!mesh.has(t)) continue;
+        const PlacedTriangle placed{&mesh.post(t[0]), &mesh.post(t[1]), &mesh.post(t[2])};
+        if (field.error(placed, limit_m) <= limit_m) continue;
+        const PostField::Worst worst = field.worst(placed);
+        if (worst.error_m <= limit_m || mesh.is_border(worst.at)) continue;
+        const std::uint32_t v = mesh.insert(field.post(worst.at), t);
+        const std::vector<std::uint32_t>& ring = mesh.ring(v);
+        for (std::size_t i = 0; i < ring.size(); ++i)
+            open.push_back({v, ring[i], ring[(i + 1) % ring.size()]});
+    }
+}
+
+/// A node of which nothing is ever drawn: what its sides must have for its neighbours, and its middle.
+ChunkShape empty_shape(const PostField& field, const ChunkId& id, const ChunkErrors& errors) {
+    const GridPoint first = id.first();
+    const int cells = id.cells();
+    const auto side_of = [&](bool along_row, int line) {
+        // Level by level, from all posts on.
+        std::vector<PlacedPost> posts;
+        for (int i = 0; i <= cells; i += field.stride()) {
+            posts.push_back(
+                field.post(along_row ? GridPoint{first.column + i, line} : GridPoint{line, first.row + i}));
+        }
+        for (int level = 1; level <= id.level; ++level) {
+            std::vector<PlacedPost> coarser;
+            const int step = ChunkId::kLeafCells << level;
+            for (int begin = 0; begin < cells; begin += step) {
+                std::vector<const PlacedPost*> part;
+                for (const PlacedPost& post : posts) {
+                    const int place = along_row ? post.at.column - first.column : post.at.row - first.row;
+                    if (place >= begin && place <= begin + step) part.push_back(&post);
+                }
+                const std::vector<bool> kept = border_line(field, part, kBorderPart * errors.of_level(level));
+                for (std::size_t i = begin == 0 ? 0 : 1; i < part.size(); ++i) {
+                    if (kept[i]) coarser.push_back(*part[i]);
+                }
+            }
+            posts = std::move(coarser);
+        }
+        return posts;
+    };
+    // Counter-clockwise from the north-west.
+    std::vector<PlacedPost> around = side_of(false, first.column);
+    const auto append = [&](std::vector<PlacedPost> posts, bool backwards) {
+        if (backwards) std::reverse(posts.begin(), posts.end());
+        around.insert(around.end(), posts.begin() + 1, posts.end());
+    };
+    append(side_of(true, first.row + cells), false);
+    append(side_of(false, first.column + cells), true);
+    append(side_of(true, first.row), true);
+    around.pop_back();
+
+    ChunkShape shape{id, around, {}, 0};
+    shape.posts.push_back(field.post({first.column + cells / 2, first.row + cells / 2}));
+    std::sort(shape.posts.begin(), shape.posts.end(), is_before);
+    const auto place = [&](const PlacedPost& post) { return place_of(shape.posts, post); };
+    const std::uint32_t middle = place(field.post({first.column + cells / 2, first.row + cells / 2}));
+    for (std::size_t i = 0; i < around.size(); ++i)
+        shape.triangles.push_back({middle, place(around[i]), place(around[(i + 1) % around.size()])});
+    return shape;
+}
+
+/// Does no more than the margin set the post off from its eight neighbours in pairs?
+bool is_removable(const PostField& field, const GridPoint& at, double margin_m) {
+    const auto H = [&](int x, int y) { return field.height({at.column + x, at.row + y}); };
+    const float E = H(0, 0);
+    const auto near = [&](float a, float b) {
+        return std::abs(0.5 * (static_cast<double>(a) + static_cast<double>(b)) - static_cast<double>(E)) <=
+               margin_m;
+    };
+    return near(H(-1, -1), H(1, 1)) && near(H(0, -1), H(0, 1)) && near(H(1, -1), H(-1, 1)) &&
+           near(H(1, 0), H(-1, 0));
+}
+
+ChunkMesh finished(const ChunkShape& shape, const CoarseSurface* coarse) {
+    ChunkMesh mesh{shape.id, shape.error_m, {}, shape.triangles, {}};
+    mesh.vertices.reserve(shape.posts.size());
+    for (const PlacedPost& post : shape.posts)
+        mesh.vertices.push_back({post.at, post.H, coarse ? coarse->height(post) : post.H});
+    for (int side = 0; side < kSides; ++side) {
+        for (const std::uint32_t v : shape.side(static_cast<Side>(side))) {
+            mesh.sides[static_cast<std::size_t>(side)].push_back(
+                {v, coarse == nullptr || coarse->has(shape.posts[v].at)});
+        }
+    }
+    return mesh;
+}
+
+}  // namespace
+
+ChunkErrors ChunkErrors::for_spacing(double spacing_m) {
+    // At 720 rows and 60 degrees a pixel of it is seen from some 190 posts away: six leaves.
+    constexpr double kPart = 0.3;
+    return {kPart * spacing_m};
+}
+
+ChunkShape ChunkBuilder::simplified(const PostField& field, const ChunkId& id, PlanarMesh mesh) const {
+    const double limit_m = errors_.of_level(id.level);
+    thin_border(field, id, kBorderPart * limit_m, mesh);
+    mend(field, limit_m, mesh);
+
+    // By weight: what the filter finds first, then from the middle to the border.
+    const GridPoint first = id.first();
+    std::vector<std::pair<int, std::uint32_t>> left;
+    for (std::uint32_t v = 0; v < mesh.vertices(); ++v) {
+        if (!mesh.is_alive(v) || mesh.on_border(v)) continue;
+        const GridPoint& at = mesh.post(v).at;
+        const int inside = std::min({at.column - first.column, first.column + id.cells() - at.column,
+                                     at.row - first.row, first.row + id.cells() - at.row});
+        const bool goes_first = id.level == 1 && is_removable(field, at, 0.25 * limit_m);
+        left.emplace_back(goes_first ? 0 : 1 + id.cells() / 2 - inside, v);
+    }
+    std::sort(left.begin(), left.end());
+    PlanarMesh::Plan plan;
+    for (const double part : {0.25, 0.5, 0.75, 1.0, 1.0}) {
+        std::erase_if(left, [&](const auto& entry) {
+            const std::uint32_t v = entry.second;
+            double error = 0;
+            if (!best_plan(field, mesh, v, part * limit_m, part * limit_m, plan, error) ||
+                error > part * limit_m)
+                return false;
+            mesh.take(v, plan);
+            return true;
+        });
+    }
+
+    ChunkShape shape{id, {}, {}, 0};
+    std::vector<std::uint32_t> place(mesh.vertices());
+    for (std::uint32_t v = 0; v < mesh.vertices(); ++v) {
+        if (!mesh.is_alive(v)) continue;
+        shape.posts.push_back(mesh.post(v));
+    }
+    std::sort(shape.posts.begin(), shape.posts.end(), is_before);
+    for (std::uint32_t v = 0; v < mesh.vertices(); ++v) {
+        if (mesh.is_alive(v)) place[v] = place_of(shape.posts, mesh.post(v));
+    }
+    for (const auto& [a, b, c] : mesh.triangles()) shape.triangles.push_back({place[a], place[b], place[c]});
+    for (const auto& [a, b, c] : shape.triangles) {
+        shape.error_m = std::max(shape.error_m,
+                                 field.error({&shape.posts[a], &shape.posts[b], &shape.posts[c]}, INFINITY));
+    }
+    // What floats of positions relative to the square's middle may hide.
+    shape.error_m += 4e-7 * field.extent_m();
+    return shape;
+}
+
+ChunkShape ChunkBuilder::build_in(const PostField& field, const ChunkId& id,
+                                  std::vector<ChunkMesh>& done) const {
+    if (!has_data(id, terrain_.frame())) return empty_shape(field, id, errors_);
+    if (id.level == 1) return simplified(field, id, all_posts(field, id));
+    std::array<ChunkShape, 4> children;
+    for (int i = 0; i < 4; ++i) children[static_cast<std::size_t>(i)] = build_in(field, id.child(i), done);
+    ChunkShape shape = simplified(field, id, joined(id, children));
+    const CoarseSurface coarse(shape);
+    for (const ChunkShape& child : children) {
+        if (has_data(child.id, terrain_.frame())) done.push_back(finished(child, &coarse));
+    }
+    return shape;
+}
+
+/// A node of kPieceLevel, and the finished ones below it.
+struct ChunkBuilder::Piece {
+    ChunkShape top;
+    std::vector<ChunkMesh> below;
+};
+
+Result<ChunkBuilder::Piece> ChunkBuilder::build_piece(const ChunkId& id) const {
+    const bool judges = has_data(id, terrain_.frame());
+    const auto field = PostField::read(terrain_, id.first(), id.cells(), 1, judges);
+    if (!field) return field.error();
+    Piece piece;
+    piece.top = build_in(*field, id, piece.below);
+    return piece;
+}
+
+Result<ChunkShape> ChunkBuilder::build_above(const ChunkId& id, const Sink& sink) const {
+    std::array<ChunkShape, 4> children;
+    if (id.level == kPieceLevel + 1) {
+        std::array<std::optional<Result<Piece>>, 4> pieces;
+        tbb::parallel_for(0, 4,
+                          [&](int i) { pieces[static_cast<std::size_t>(i)] = build_piece(id.child(i)); });
+        for (std::size_t i = 0; i < 4; ++i) {
+            if (!*pieces[i]) return pieces[i]->error();
+            for (const ChunkMesh& mesh : (*pieces[i])->below) {
+                if (auto done = sink(mesh); !done) return done.error();
+            }
+            children[i] = std::move((*pieces[i])->top);
+        }
+    } else {
+        for (int i = 0; i < 4; ++i) {
+            auto child = build_above(id.child(i), sink);
+            if (!child) return child.error();
+            children[static_cast<std::size_t>(i)] = *std::move(child);
+        }
+    }
+    const auto field = PostField::read(terrain_, id.first(), id.cells(), 1 << (id.level - kPieceLevel));
+    if (!field) return field.error();
+    ChunkShape shape = simplified(*field, id, joined(id, children));
+    const CoarseSurface coarse(shape);
+    for (const ChunkShape& child : children) {
+        if (!has_data(child.id, terrain_.frame())) continue;
+        if (auto done = sink(finished(child, &coarse)); !done) return done.error();
+    }
+    return shape;
+}
+
+Result<void> ChunkBuilder::build(const Sink& sink) const {
+    const int top = top_chunk_level(terrain_.frame());
+    if (top < 1) return {};
+    const ChunkId root{top, 0, 0};
+    std::optional<ChunkShape> shape;
+    if (top <= kPieceLevel) {
+        auto piece = build_piece(root);
+        if (!piece) return piece.error();
+        for (const ChunkMesh& mesh : piece->below) {
+            if (auto done = sink(mesh); !done) return done.error();
+        }
+        shape = std::move(piece->top);
+    } else {
+        auto made = build_above(root, sink);
+        if (!made) return made.error();
+        shape = *std::move(made);
+    }
+    return sink(finished(*shape, nullptr));
+}
+
+}  // namespace relevo::lod

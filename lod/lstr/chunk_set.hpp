@@ -1,0 +1,61 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "geo/result.hpp"
+#include "lod/lstr/chunk_box.hpp"
+#include "lod/lstr/chunk_builder.hpp"
+
+namespace relevo::lod {
+
+/// What is known of a node without its mesh.
+struct ChunkNode {
+    ChunkBox box;
+    double error_m = 0;
+    double most_H_m = 0;  ///< largest |H| of its vertices
+};
+
+/// The nodes of a terrain, and their meshes.
+class ChunkSet {
+  public:
+    virtual ~ChunkSet() = default;
+
+    /// Of nodes of level 1 or coarser; null: the node holds no data.
+    virtual const ChunkNode* node(const ChunkId& id) const = 0;
+
+    /// \pre the node is there. May be called from several threads.
+    virtual Result<std::shared_ptr<const ChunkMesh>> mesh(const ChunkId& id) const = 0;
+
+    /// What nodes of a level are off the ground, and how large they are, at most. By level; of leaves 0.
+    struct Level {
+        double error_m = 0;
+        double diameter_m = 0;
+        double most_H_m = 0;
+    };
+    virtual const std::vector<Level>& levels() const = 0;
+};
+
+/// All of them in memory: for tests, and for terrains that are small.
+class MemoryChunks final : public ChunkSet {
+  public:
+    static Result<MemoryChunks> build(const Terrain& terrain, const ChunkErrors& errors);
+
+    const ChunkNode* node(const ChunkId& id) const override;
+    Result<std::shared_ptr<const ChunkMesh>> mesh(const ChunkId& id) const override;
+    const std::vector<Level>& levels() const override { return levels_; }
+
+  private:
+    struct Entry {
+        ChunkNode node;
+        std::shared_ptr<const ChunkMesh> mesh;
+    };
+    std::map<ChunkId, Entry> entries_;
+    std::vector<Level> levels_;
+};
+
+/// Of a mesh that was built.
+ChunkNode chunk_node(const Terrain& terrain, const ChunkMesh& mesh);
+
+}  // namespace relevo::lod

@@ -1,0 +1,111 @@
+#include "lod/lstr/chunk_mesher.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "lod/mesh_checks.hpp"
+#include "lod/oracle.hpp"
+#include "lod/sample_views.hpp"
+#include "tests/lod/synthetic_terrain.hpp"
+
+namespace relevo::lod {
+namespace {
+
+double hills(int column, int row) {
+    return 300 * std::sin(0.05 * column) * std::cos(0.03 * row) + 40 * std::sin(0.31 * column + 0.2 * row) +
+           6 * test::noise(column, row);
+}
+
+struct Trial {
+    explicit Trial(int columns, int rows, double (*height)(int, int) = hills)
+        : terrain(test::make_terrain(test::geographic_frame(columns, rows),
+                                     test::make_heights(test::geographic_frame(columns, rows), height))),
+          chunks(*MemoryChunks::build(terrain, ChunkErrors::for_spacing(25))) {}
+
+    Terrain terrain;
+    MemoryChunks chunks;
+};
+
+TEST(Chunks, StayWithinTheirErrors) {
+    const Trial trial(513, 400);
+    const auto& levels = trial.chunks.levels();
+    ASSERT_EQ(levels.size(), 5U);
+    const ChunkErrors errors = ChunkErrors::for_spacing(25);
+    for (int level = 1; level < 5; ++level) {
+        EXPECT_GT(levels[static_cast<std::size_t>(level)].error_m, 0.3 * errors.of_level(level)) << level;
+        EXPECT_LE(levels[static_cast<std::size_t>(level)].error_m, 1.05 * errors.of_level(level)) << level;
+    }
+}
+
+TEST(Chunks, OfOneLevelMakeOneMesh) {
+    const Trial trial(513, 513);
+    for (int level = 1; level <= 4; ++level) {
+        // Every inner edge of the joint mesh belongs to two triangles.
+        using Edge = std::pair<std::pair<int, int>, std::pair<int, int>>;
+        std::map<Edge, int> edges;
+        const int nodes = 16 >> level;
+        for (int row = 0; row < nodes; ++row) {
+            for (int column = 0; column < nodes; ++column) {
+                const auto mesh = trial.chunks.mesh({level, column, row});
+                ASSERT_TRUE(mesh);
+                for (const IndexTriangle& t : (*mesh)->triangles) {
+                    for (std::size_t i = 0; i < 3; ++i) {
+                        const GridPoint& a = (*mesh)->vertices[t[i]].at;
+                        const GridPoint& b = (*mesh)->vertices[t[(i + 1) % 3]].at;
+                        std::pair from{a.row, a.column}, to{b.row, b.column};
+                        if (to < from) std::swap(from, to);
+                        ++edges[{from, to}];
+                    }
+                }
+            }
+        }
+        for (const auto& [edge, count] : edges) {
+            const auto& [a, b] = edge;
+            const bool outer =
+                (a.first == b.first && a.first % 512 == 0) || (a.second == b.second && a.second % 512 == 0);
+            ASSERT_EQ(count, outer ? 1 : 2) << level;
+        }
+    }
+}
+
+TEST(ChunkMesher, KeepsTheErrorAndLeavesNoCrack) {
+    const Trial trial(513, 400);
+    ChunkMesher mesher(trial.terrain, trial.chunks);
+    for (const bool morph : {false, true}) {
+        for (const double tau : {0.7, 2.0}) {
+            for (const Camera& camera : sample_views(trial.terrain, 30, 3, 320, 180)) {
+                const View view(camera);
+                const auto mesh = mesher.mesh(view, {.tau_px = tau, .morph = morph});
+                ASSERT_TRUE(mesh);
+                EXPECT_EQ(count_t_vertices(**mesh), 0);
+                EXPECT_EQ(count_torn_posts(**mesh), 0);
+                const auto error = measure_error(trial.terrain, view, **mesh);
+                if (!error) continue;
+                EXPECT_LE(error->max_px, tau) << morph << " " << camera.eye.h.m;
+                EXPECT_EQ(error->uncovered_posts, 0U);
+            }
+        }
+    }
+}
+
+TEST(ChunkMesher, DrawsTerrainsOfALeafAndLess) {
+    for (const int side : {2, 3, 5, 20, 33, 34, 65}) {
+        const Trial trial(side, side);
+        ChunkMesher mesher(trial.terrain, trial.chunks);
+        for (const Camera& camera : sample_views(trial.terrain, 5, 3, 320, 180)) {
+            const View view(camera);
+            const auto mesh = mesher.mesh(view, {.tau_px = 1, .morph = false});
+            ASSERT_TRUE(mesh);
+            const auto error = measure_error(trial.terrain, view, **mesh);
+            if (!error) continue;
+            EXPECT_LE(error->max_px, 1) << side;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace relevo::lod
