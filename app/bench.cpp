@@ -222,7 +222,7 @@ void add_bench(CLI::App& program, Action& action) {
     add("-o,--output", flags->output, "DIR", "Where the results go: a new or an empty folder")->required();
     command->add_flag("--overwrite", flags->overwrite, "Write into a folder that is not empty");
     add("--flight", flags->flight, "FLIGHT", "A flight to fly [one made from the scene]");
-    add("--methods", flags->methods, "LIST", "Of soar-bounded, soar-incremental, textbook, full [all]");
+    add("--methods", flags->methods, "LIST", "Of soar-bounded, soar-incremental, lstr, textbook, full [all]");
     add("--taus", flags->taus, "LIST", "Pixels [0.25,0.5,1,2,4,8,16]");
     add("--frames", flags->frames, "N", "Of each method and tau, at equal times along the flight [20]");
     add("--runs", flags->runs, "N", "How often everything is flown, in turns [3]");

@@ -9,6 +9,7 @@
 
 #include "app/command.hpp"
 #include "app/view_flags.hpp"
+#include "lod/lstr/chunk_file.hpp"
 #include "viewer/bench/machine.hpp"
 #include "viewer/numbers.hpp"
 #include "viewer/offscreen.hpp"
@@ -118,8 +119,12 @@ Result<void> run(const RenderFlags& flags) {
 
     const auto scene = lod::Scene::open(flags.scene);
     if (!scene) return scene.error();
-    const auto terrain = lod::Terrain::open(*scene, view->metric, *tiles);
+    auto terrain = lod::Terrain::open(*scene, view->metric, *tiles);
     if (!terrain) return terrain.error();
+    if (view->method == viewer::Method::lstr) {
+        const auto bar = progress_bar(flags.common, "making the quadtree");
+        if (auto done = lod::provide_chunks(*scene, *terrain, bar); !done) return done;
+    }
     const viewer::EyeHeight heights(scene->geoid());
     place_view(*view, flags.view, *scene, *terrain, heights, *size);
 

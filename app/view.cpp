@@ -9,6 +9,7 @@
 
 #include "app/command.hpp"
 #include "app/view_flags.hpp"
+#include "lod/lstr/chunk_file.hpp"
 #include "viewer/flight.hpp"
 
 namespace relevo::app {
@@ -95,8 +96,12 @@ Result<void> run(const WindowFlags& flags) {
 
     const auto scene = lod::Scene::open(flags.scene);
     if (!scene) return scene.error();
-    const auto terrain = lod::Terrain::open(*scene, view->metric, *tiles);
+    auto terrain = lod::Terrain::open(*scene, view->metric, *tiles);
     if (!terrain) return terrain.error();
+    if (view->method == viewer::Method::lstr) {
+        const auto bar = progress_bar(flags.common, "making the quadtree");
+        if (auto done = lod::provide_chunks(*scene, *terrain, bar); !done) return done;
+    }
     const viewer::EyeHeight heights(scene->geoid());
     if (!play) place_view(*view, flags.view, *scene, *terrain, heights, *size);
 

@@ -84,7 +84,7 @@ void add_view_flags(CLI::App& command, ViewFlags& flags) {
     add("--pitch", flags.pitch, "DEG", "0 at the horizon, -90 straight down");
     add("--roll", flags.roll, "DEG", "Of the head, to the right");
     add("--fov", flags.fov, "DEG", "Vertical view angle, above 0 and below 180 [60]");
-    add("--lod", flags.method, "soar|full", "How the mesh is made [soar]");
+    add("--lod", flags.method, "soar|lstr|full", "How the mesh is made [soar]");
     add("--metric", flags.metric, "bounded|incremental", "The error that drives it [bounded]");
     add_picture_flags(command, flags);
 }

@@ -206,6 +206,7 @@ class Oracle {
             return (b.column - a.column) * (y - a.row) - (b.row - a.row) * (x - a.column);
         };
         const double area = cross(t[0], t[1], t[2].column, t[2].row);
+        if (area == 0) return;  // it stands on end: pixels judge it
         for (int row = top; row <= std::min(bottom, rows() - 1); ++row) {
             for (int column = left; column <= std::min(right, columns() - 1); ++column) {
                 const double b0 = cross(t[1], t[2], column, row) / area;

@@ -17,6 +17,8 @@
 
 namespace relevo::lod {
 
+class ChunkSet;
+
 /// A terrain, ready to be meshed: where its posts lie, and those parts of its pyramid that are in memory. Its
 /// size does not matter.
 class Terrain {
@@ -47,6 +49,10 @@ class Terrain {
     /// What meshes are made of.
     TileStore& tiles() const { return *parts_->tiles; }
 
+    /// What the LSTR draws; null where nothing was given (lstr/chunk_file.hpp).
+    const ChunkSet* chunks() const { return parts_->chunks.get(); }
+    void use_chunks(std::shared_ptr<const ChunkSet> chunks) { parts_->chunks = std::move(chunks); }
+
     /// What is true.
     const TruePosts& posts() const { return parts_->posts; }
 
@@ -71,6 +77,7 @@ class Terrain {
         std::vector<LevelBound> bounds;
         TruePosts posts;
         std::unique_ptr<TileStore> tiles;
+        std::shared_ptr<const ChunkSet> chunks;
     };
     explicit Terrain(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 

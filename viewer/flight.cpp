@@ -94,7 +94,7 @@ class Flight {
     /// Pieces of meshes and of what colours them that are being read.
     std::size_t pending() const {
         const lod::TileStore::Figures tiles = terrain_.tiles().figures();
-        const bool coming = view_.method != Method::full && !tiles.starved();  // else they have no room
+        const bool coming = view_.method == Method::soar && !tiles.starved();  // else they have no room
         return renderer_.pending() + (coming ? tiles.pending_tiles : 0);
     }
 
@@ -166,7 +166,7 @@ class Flight {
         // Without the wait for the screen, which a frame does not take longer for.
         if (options_.budget.frame_ms) gl_finish();
         const FrameCost cost{ms_since(start), figures_.triangles,
-                             view_.method == Method::full ? 0 : terrain_.tiles().figures().memory_load};
+                             view_.method != Method::soar ? 0 : terrain_.tiles().figures().memory_load};
         budget_.add(cost);
         within_budget_ += budget_.holds(cost);
         if (screenshot) {

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <chrono>
+#include <memory>
 #include <optional>
 
 #include <glm/geometric.hpp>
 
+#include "lod/lstr/chunk_mesher.hpp"
 #include "lod/soar/full_mesh.hpp"
 #include "lod/soar/refiner.hpp"
 #include "viewer/frame_budget.hpp"
@@ -21,6 +23,7 @@ class Mesher {
     /// Of what is in memory; what is missing is asked for. Valid until the next call.
     const lod::Mesh& mesh(const lod::View& view, const ViewState& state) {
         if (state.method == Method::full) return full(view, state);
+        if (state.method == Method::lstr) return chunks(view, state);
         terrain_.tiles().start_frame();
         look_ahead(view, options(state));
         return refiner_.refine(view, options(state));
@@ -33,12 +36,17 @@ class Mesher {
         const lod::Mesh& first = mesh(view, state);
         if (!budget.coarsen(first.triangles())) return first;
         state.tau_px = budget.tau_px();
-        return refiner_.refine(view, options(state));
+        return state.method == Method::lstr ? chunks(view, state) : refiner_.refine(view, options(state));
     }
 
     /// Of all that the view asks for; waits for what is missing.
     Result<const lod::Mesh*> whole_mesh(const lod::View& view, const ViewState& state) {
         if (state.method == Method::full) return &full(view, state);
+        if (state.method == Method::lstr) {
+            const lod::Mesh& made = chunks(view, state);
+            if (failure_) return *failure_;
+            return &made;
+        }
         return refiner_.refine_whole(view, options(state));
     }
 
@@ -70,8 +78,21 @@ class Mesher {
         return full_;
     }
 
+    /// Nothing where a node cannot be read. \pre the terrain has chunks
+    const lod::Mesh& chunks(const lod::View& view, const ViewState& state) {
+        if (!chunk_mesher_) chunk_mesher_.emplace(terrain_, *terrain_.chunks());
+        const auto made = chunk_mesher_->mesh(view, options(state));
+        failure_.reset();
+        if (made) return **made;
+        failure_ = std::make_unique<const Error>(made.error());
+        full_.clear();
+        return full_;
+    }
+
     const lod::Terrain& terrain_;
     lod::Refiner refiner_;
+    std::optional<lod::ChunkMesher> chunk_mesher_;
+    std::unique_ptr<const Error> failure_;
     lod::Mesh full_;
     std::optional<geo::Ecef> last_eye_;
     Clock::time_point last_time_;

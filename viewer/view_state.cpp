@@ -55,14 +55,21 @@ Result<void> set(ViewState& view, std::string_view key, std::string_view value) 
 }  // namespace
 
 std::string_view to_string(Method method) {
-    return method == Method::full ? "full" : "soar";
+    switch (method) {
+        case Method::lstr:
+            return "lstr";
+        case Method::full:
+            return "full";
+        default:
+            return "soar";
+    }
 }
 
 Result<Method> parse_method(std::string_view text) {
     if (text == "soar") return Method::soar;
     if (text == "full") return Method::full;
-    if (text == "lstr") return usage("the method lstr comes with a later version; soar and full are here");
-    return usage(fmt::format("no method \"{}\": soar or full", text));
+    if (text == "lstr") return Method::lstr;
+    return usage(fmt::format("no method \"{}\": soar, lstr or full", text));
 }
 
 std::string_view metric_name(lod::ErrorMetric metric) {

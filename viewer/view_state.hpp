@@ -15,6 +15,7 @@ namespace relevo::viewer {
 /// How the mesh is made.
 enum class Method {
     soar,  ///< view-dependent refinement
+    lstr,  ///< nodes of a quadtree
     full,  ///< every triangle of the data
 };
 std::string_view to_string(Method method);

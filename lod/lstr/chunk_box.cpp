@@ -11,13 +11,24 @@
 
 namespace relevo::lod {
 
+namespace {
+
+glm::dvec3 middle_of(const Terrain& terrain, const ChunkId& id) {
+    const int half = id.cells() / 2;
+    return terrain.position(id.first().column + half, id.first().row + half, 0, 1);
+}
+
+}  // namespace
+
+glm::dmat3 ChunkBox::axes_at(const Terrain& terrain, const ChunkId& id) {
+    const geo::EnuFrame local(geo::to_geodetic({middle_of(terrain, id)}));
+    return {local.east(), local.north(), local.up()};
+}
+
 ChunkBox ChunkBox::of(const Terrain& terrain, const ChunkMesh& mesh) {
     ChunkBox box;
-    const GridPoint first = mesh.id.first();
-    const int half = mesh.id.cells() / 2;
-    const glm::dvec3 middle = terrain.position(first.column + half, first.row + half, 0, 1);
-    const geo::EnuFrame local(geo::to_geodetic({middle}));
-    box.axes = {local.east(), local.north(), local.up()};
+    const glm::dvec3 middle = middle_of(terrain, mesh.id);
+    box.axes = axes_at(terrain, mesh.id);
     glm::dvec3 lowest(std::numeric_limits<double>::infinity());
     glm::dvec3 highest = -lowest;
     for (const ChunkVertex& vertex : mesh.vertices) {

@@ -18,6 +18,9 @@ struct ChunkBox {
     /// Of a mesh that no valid post is farther from than its error.
     static ChunkBox of(const Terrain& terrain, const ChunkMesh& mesh);
 
+    /// East, north and up at a node's middle.
+    static glm::dmat3 axes_at(const Terrain& terrain, const ChunkId& id);
+
     /// As heights exaggerated make it.
     ChunkBox exaggerated(double exaggeration, double most_H_m) const;
 

@@ -76,7 +76,14 @@ double error_of(const PostField& field, const PlanarMesh& mesh, const PlanarMesh
                 double limit_m) {
     double error = 0;
     for (const IndexTriangle& t : plan.triangles) {
-        error = std::max(error, field.error(mesh.placed(plan, t), limit_m));
+        const PlacedTriangle placed = mesh.placed(plan, t);
+        error = std::max(error, field.error(placed, limit_m));
+        for (std::size_t i = 0; i < 3 && error <= limit_m; ++i) {
+            // New edges alone, and each of them once.
+            const std::uint32_t next = t[(i + 1) % 3];
+            if (t[i] < next && mesh.is_inner(plan, t[i], next))
+                error = std::max(error, field.edge_error(*placed[i], *placed[(i + 1) % 3], limit_m));
+        }
         if (error > limit_m) break;
     }
     return error;
@@ -125,21 +132,48 @@ void thin_border(const PostField& field, const ChunkId& id, double error_m, Plan
     }
 }
 
-/// Puts posts back inside where a thinner border has left errors greater than the limit.
+/// Of a triangle and its edges, or some error greater than the limit.
+double error_of(const PostField& field, const PlacedTriangle& t, double limit_m) {
+    double error = field.error(t, limit_m);
+    for (std::size_t i = 0; i < 3 && error <= limit_m; ++i)
+        error = std::max(error, field.edge_error(*t[i], *t[(i + 1) % 3], limit_m));
+    return error;
+}
+
+/// Puts posts back inside where a thinner border has left errors greater than the limit, and where there is
+/// none to be put turns edges that are off.
 void mend(const PostField& field, double limit_m, PlanarMesh& mesh) {
+    const auto placed = [&](const IndexTriangle& t) {
+        return PlacedTriangle{&mesh.post(t[0]), &mesh.post(t[1]), &mesh.post(t[2])};
+    };
     std::vector<IndexTriangle> open = mesh.triangles();
+    std::size_t flips_left = 4 * open.size();
     while (!open.empty()) {
         const IndexTriangle t = open.back();
         open.pop_back();
-        if (!mesh.has(t)) continue;
-        const PlacedTriangle placed{&mesh.post(t[0]), &mesh.post(t[1]), &mesh.post(t[2])};
-        if (field.error(placed, limit_m) <= limit_m) continue;
-        const PostField::Worst worst = field.worst(placed);
-        if (worst.error_m <= limit_m || mesh.is_border(worst.at)) continue;
-        const std::uint32_t v = mesh.insert(field.post(worst.at), t);
-        const std::vector<std::uint32_t>& ring = mesh.ring(v);
-        for (std::size_t i = 0; i < ring.size(); ++i)
-            open.push_back({v, ring[i], ring[(i + 1) % ring.size()]});
+        if (!mesh.has(t) || error_of(field, placed(t), limit_m) <= limit_m) continue;
+        const PostField::Worst worst = field.worst(placed(t));
+        if (worst.error_m > 0 && !mesh.is_border(worst.at)) {
+            const std::uint32_t v = mesh.insert(field.post(worst.at), t);
+            const std::vector<std::uint32_t>& ring = mesh.ring(v);
+            for (std::size_t i = 0; i < ring.size(); ++i)
+                open.push_back({v, ring[i], ring[(i + 1) % ring.size()]});
+            continue;
+        }
+        for (std::size_t i = 0; i < 3 && flips_left > 0; ++i) {
+            const std::uint32_t a = t[i];
+            const std::uint32_t b = t[(i + 1) % 3];
+            const double before = field.edge_error(mesh.post(a), mesh.post(b), INFINITY);
+            if (before <= limit_m) continue;
+            const auto flipped = mesh.flipped(a, b);
+            if (!flipped) continue;
+            const auto after = [&](std::size_t k) { return error_of(field, placed((*flipped)[k]), before); };
+            if (after(0) >= before || after(1) >= before) continue;
+            --flips_left;
+            mesh.flip(a, b, *flipped);
+            open.insert(open.end(), flipped->begin(), flipped->end());
+            break;
+        }
     }
 }
 
@@ -205,6 +239,19 @@ bool is_removable(const PostField& field, const GridPoint& at, double margin_m) 
            near(H(1, 0), H(-1, 0));
 }
 
+/// The largest error of a mesh in a field's square.
+double error_in(const PostField& field, const ChunkShape& shape) {
+    double error = 0;
+    for (const IndexTriangle& t : shape.triangles) {
+        error = std::max(error,
+                         field.error({&shape.posts[t[0]], &shape.posts[t[1]], &shape.posts[t[2]]}, INFINITY));
+        for (std::size_t i = 0; i < 3; ++i)
+            error =
+                std::max(error, field.edge_error(shape.posts[t[i]], shape.posts[t[(i + 1) % 3]], INFINITY));
+    }
+    return error;
+}
+
 ChunkMesh finished(const ChunkShape& shape, const CoarseSurface* coarse) {
     ChunkMesh mesh{shape.id, shape.error_m, {}, shape.triangles, {}};
     mesh.vertices.reserve(shape.posts.size());
@@ -222,8 +269,9 @@ ChunkMesh finished(const ChunkShape& shape, const CoarseSurface* coarse) {
 }  // namespace
 
 ChunkErrors ChunkErrors::for_spacing(double spacing_m) {
-    // At 720 rows and 60 degrees a pixel of it is seen from some 190 posts away: six leaves.
-    constexpr double kPart = 0.3;
+    // At 720 rows and 60 degrees a pixel of it is seen from some 95 posts away: as far as nodes are wide, so
+    // that neither errors nor sizes make ranges (chunk_mesher.hpp) larger than they need be.
+    constexpr double kPart = 0.15;
     return {kPart * spacing_m};
 }
 
@@ -268,10 +316,7 @@ ChunkShape ChunkBuilder::simplified(const PostField& field, const ChunkId& id, P
         if (mesh.is_alive(v)) place[v] = place_of(shape.posts, mesh.post(v));
     }
     for (const auto& [a, b, c] : mesh.triangles()) shape.triangles.push_back({place[a], place[b], place[c]});
-    for (const auto& [a, b, c] : shape.triangles) {
-        shape.error_m = std::max(shape.error_m,
-                                 field.error({&shape.posts[a], &shape.posts[b], &shape.posts[c]}, INFINITY));
-    }
+    shape.error_m = error_in(field, shape);
     // What floats of positions relative to the square's middle may hide.
     shape.error_m += 4e-7 * field.extent_m();
     return shape;
@@ -306,6 +351,29 @@ Result<ChunkBuilder::Piece> ChunkBuilder::build_piece(const ChunkId& id) const {
     return piece;
 }
 
+/// The error against all posts of a mesh that was simplified by some of them.
+Result<void> ChunkBuilder::measure(ChunkShape& shape) const {
+    const int below = shape.id.level - kPieceLevel;
+    const int side = 1 << below;
+    std::vector<double> errors(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+    std::vector<std::optional<Error>> failures(errors.size());
+    tbb::parallel_for(0, side * side, [&](int i) {
+        const ChunkId piece{kPieceLevel, (shape.id.column << below) + i % side,
+                            (shape.id.row << below) + i / side};
+        if (!has_data(piece, terrain_.frame())) return;
+        const auto field = PostField::read(terrain_, piece.first(), piece.cells(), 1);
+        if (field)
+            errors[static_cast<std::size_t>(i)] = error_in(*field, shape);
+        else
+            failures[static_cast<std::size_t>(i)] = field.error();
+    });
+    for (const auto& failure : failures) {
+        if (failure) return *failure;
+    }
+    for (const double error : errors) shape.error_m = std::max(shape.error_m, error);
+    return {};
+}
+
 Result<ChunkShape> ChunkBuilder::build_above(const ChunkId& id, const Sink& sink) const {
     std::array<ChunkShape, 4> children;
     if (id.level == kPieceLevel + 1) {
@@ -329,6 +397,7 @@ Result<ChunkShape> ChunkBuilder::build_above(const ChunkId& id, const Sink& sink
     const auto field = PostField::read(terrain_, id.first(), id.cells(), 1 << (id.level - kPieceLevel));
     if (!field) return field.error();
     ChunkShape shape = simplified(*field, id, joined(id, children));
+    if (auto done = measure(shape); !done) return done.error();
     const CoarseSurface coarse(shape);
     for (const ChunkShape& child : children) {
         if (!has_data(child.id, terrain_.frame())) continue;

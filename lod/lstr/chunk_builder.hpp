@@ -68,6 +68,7 @@ class ChunkBuilder {
 
     struct Piece;
     Result<Piece> build_piece(const ChunkId& id) const;
+    Result<void> measure(ChunkShape& shape) const;
     Result<ChunkShape> build_above(const ChunkId& id, const Sink& sink) const;
     ChunkShape build_in(const PostField& field, const ChunkId& id, std::vector<ChunkMesh>& done) const;
     ChunkShape simplified(const PostField& field, const ChunkId& id, PlanarMesh mesh) const;

@@ -13,15 +13,18 @@ ChunkNode chunk_node(const Terrain& terrain, const ChunkMesh& mesh) {
     return node;
 }
 
+void add_to_level(const ChunkNode& node, ChunkSet::Level& level) {
+    level.error_m = std::max(level.error_m, node.error_m);
+    level.diameter_m = std::max(level.diameter_m, node.box.diameter_m());
+    level.most_H_m = std::max(level.most_H_m, node.most_H_m);
+}
+
 Result<MemoryChunks> MemoryChunks::build(const Terrain& terrain, const ChunkErrors& errors) {
     MemoryChunks made;
     made.levels_.resize(static_cast<std::size_t>(std::max(top_chunk_level(terrain.frame()), 0)) + 1);
     const auto keep = [&](const ChunkMesh& mesh) -> Result<void> {
         const ChunkNode node = chunk_node(terrain, mesh);
-        Level& level = made.levels_[static_cast<std::size_t>(mesh.id.level)];
-        level.error_m = std::max(level.error_m, node.error_m);
-        level.diameter_m = std::max(level.diameter_m, node.box.diameter_m());
-        level.most_H_m = std::max(level.most_H_m, node.most_H_m);
+        add_to_level(node, made.levels_[static_cast<std::size_t>(mesh.id.level)]);
         made.entries_[mesh.id] = {node, std::make_shared<const ChunkMesh>(mesh)};
         return {};
     };

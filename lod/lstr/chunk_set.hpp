@@ -55,6 +55,9 @@ class MemoryChunks final : public ChunkSet {
     std::vector<Level> levels_;
 };
 
+/// Of all nodes of a level.
+void add_to_level(const ChunkNode& node, ChunkSet::Level& level);
+
 /// Of a mesh that was built.
 ChunkNode chunk_node(const Terrain& terrain, const ChunkMesh& mesh);
 

@@ -154,6 +154,31 @@ bool PlanarMesh::has(const IndexTriangle& triangle) const {
     return !on_border_[triangle[0]] && ring.front() == triangle[2];
 }
 
+std::optional<std::array<IndexTriangle, 2>> PlanarMesh::flipped(std::uint32_t a, std::uint32_t b) const {
+    const std::vector<std::uint32_t>& ring = rings_[a];
+    const auto count = static_cast<std::size_t>(ring.size());
+    const auto i = static_cast<std::size_t>(std::find(ring.begin(), ring.end(), b) - ring.begin());
+    if (on_border_[a] && (i == 0 || i + 1 == count)) return std::nullopt;
+    const std::uint32_t d = ring[(i + count - 1) % count];
+    const std::uint32_t c = ring[(i + 1) % count];
+    const auto at = [&](std::uint32_t v) -> const GridPoint& { return posts_[v].at; };
+    if (turn(at(a), at(d), at(c)) <= 0 || turn(at(d), at(b), at(c)) <= 0) return std::nullopt;
+    return std::array<IndexTriangle, 2>{{{a, d, c}, {d, b, c}}};
+}
+
+void PlanarMesh::flip(std::uint32_t a, std::uint32_t b, const std::array<IndexTriangle, 2>& triangles) {
+    const std::uint32_t d = triangles[0][1];
+    const std::uint32_t c = triangles[0][2];
+    std::erase(rings_[a], b);
+    std::erase(rings_[b], a);
+    const auto put_after = [&](std::uint32_t of, std::uint32_t before, std::uint32_t vertex) {
+        std::vector<std::uint32_t>& ring = rings_[of];
+        ring.insert(std::find(ring.begin(), ring.end(), before) + 1, vertex);
+    };
+    put_after(c, a, d);
+    put_after(d, b, c);
+}
+
 std::uint32_t PlanarMesh::insert(const PlacedPost& post, const IndexTriangle& triangle) {
     const auto vertex = static_cast<std::uint32_t>(posts_.size());
     posts_.push_back(post);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "lod/lstr/post_field.hpp"
@@ -45,6 +46,12 @@ class PlanarMesh {
         return {at(0), at(1), at(2)};
     }
 
+    /// Is an edge between two places of the planned polygon not one of the mesh's already?
+    bool is_inner(const Plan& plan, std::uint32_t a, std::uint32_t b) const {
+        const auto count = static_cast<std::uint32_t>(plan.polygon.size());
+        return (a + 1) % count != b && (b + 1) % count != a;
+    }
+
     /// Takes the vertex away as planned.
     void take(std::uint32_t vertex, const Plan& plan);
 
@@ -54,6 +61,12 @@ class PlanarMesh {
     /// Adds a post inside a triangle or on one of its edges, which is not on the border. The triangles around
     /// it are those of its ring. \pre it is no corner
     std::uint32_t insert(const PlacedPost& post, const IndexTriangle& triangle);
+
+    /// The two triangles on an edge as they would be with the other diagonal of their square. Nothing on the
+    /// border, and where the square is not convex. \pre the edge is in the mesh
+    std::optional<std::array<IndexTriangle, 2>> flipped(std::uint32_t a, std::uint32_t b) const;
+    /// Puts them there. \param triangles  what flipped() gave
+    void flip(std::uint32_t a, std::uint32_t b, const std::array<IndexTriangle, 2>& triangles);
 
     /// Neighbours, counter-clockwise; of a border vertex from one side to the other.
     const std::vector<std::uint32_t>& ring(std::uint32_t vertex) const { return rings_[vertex]; }

@@ -146,6 +146,66 @@ double PostField::error(const PlacedTriangle& triangle, double enough) const {
     return std::sqrt(static_cast<double>(largest));
 }
 
+double PostField::off(const glm::dvec3& drawn, const GridPoint& from, const GridPoint& to,
+                      double part) const {
+    const auto inside = [&](const GridPoint& at) {
+        return at.column >= first_.column && at.row >= first_.row && at.column <= first_.column + cells_ &&
+               at.row <= first_.row + cells_;
+    };
+    if (!inside(from) || !inside(to)) return 0;
+    const std::size_t i = index(from);
+    const std::size_t j = index(to);
+    if (!(valid_[i] > 0 && valid_[j] > 0)) return 0;
+    const auto mixed = [part](float p, float q) {
+        return (1 - part) * static_cast<double>(p) + part * static_cast<double>(q);
+    };
+    return glm::distance(drawn, {mixed(x_[i], x_[j]), mixed(y_[i], y_[j]), mixed(z_[i], z_[j])});
+}
+
+double PostField::edge_error(const PlacedPost& a, const PlacedPost& b, double enough) const {
+    // In posts of the field.
+    const auto scaled = [&](int at, int first) { return static_cast<double>(at - first) / stride_; };
+    const glm::dvec2 from(scaled(a.at.column, first_.column), scaled(a.at.row, first_.row));
+    const glm::dvec2 way(scaled(b.at.column - a.at.column, 0), scaled(b.at.row - a.at.row, 0));
+    const glm::dvec3 start = a.position - origin_;
+    const glm::dvec3 along = b.position - a.position;
+    const auto post = [&](int column, int row) {
+        return GridPoint{first_.column + column * stride_, first_.row + row * stride_};
+    };
+    // Lines of a family are where (x, y) has a product with `across` that is a multiple of `every`.
+    double largest = 0;
+    const auto cross = [&](const glm::dvec2& across, int every, const auto& between) {
+        const double begin = glm::dot(across, from);
+        const double growth = glm::dot(across, way);
+        if (growth == 0) return;
+        const double low = std::min(begin, begin + growth), high = std::max(begin, begin + growth);
+        for (int line = static_cast<int>(std::floor(low / every)) + 1;
+             line * every < high && largest <= enough; ++line) {
+            const double part = (line * every - begin) / growth;
+            const glm::dvec2 at = from + part * way;
+            largest = std::max(largest, between(at, line * every, start + part * along));
+        }
+    };
+    cross({1, 0}, 1, [&](const glm::dvec2& at, int column, const glm::dvec3& drawn) {
+        const int row = static_cast<int>(std::floor(at.y));
+        return off(drawn, post(column, row), post(column, row + 1), at.y - row);
+    });
+    cross({0, 1}, 1, [&](const glm::dvec2& at, int row, const glm::dvec3& drawn) {
+        const int column = static_cast<int>(std::floor(at.x));
+        return off(drawn, post(column, row), post(column + 1, row), at.x - column);
+    });
+    // Diagonals (soar/cell.hpp) run along x - y and x + y that are even.
+    cross({1, -1}, 2, [&](const glm::dvec2& at, int line, const glm::dvec3& drawn) {
+        const int column = static_cast<int>(std::floor(at.x));
+        return off(drawn, post(column, column - line), post(column + 1, column + 1 - line), at.x - column);
+    });
+    cross({1, 1}, 2, [&](const glm::dvec2& at, int line, const glm::dvec3& drawn) {
+        const int column = static_cast<int>(std::floor(at.x));
+        return off(drawn, post(column, line - column), post(column + 1, line - column - 1), at.x - column);
+    });
+    return largest;
+}
+
 PostField::Worst PostField::worst(const PlacedTriangle& triangle) const {
     const Plane plane(triangle, origin_);
     Worst worst{triangle[0]->at, 0};

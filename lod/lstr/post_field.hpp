@@ -38,6 +38,10 @@ class PostField {
     /// same grid coordinates: the largest distance, metres, or some distance greater than `enough`.
     double error(const PlacedTriangle& triangle, double enough) const;
 
+    /// The same for an edge, where it crosses the edges of the finest mesh: what lies between posts is
+    /// farthest off at a post or there, since both surfaces are flat everywhere else.
+    double edge_error(const PlacedPost& a, const PlacedPost& b, double enough) const;
+
     /// Largest coordinate of a post from the square's middle, metres.
     double extent_m() const { return extent_m_; }
     /// Is any post valid?
@@ -58,6 +62,9 @@ class PostField {
     /// Calls visit(row, first column, posts) for each row of the square's posts in a triangle.
     template <class Visit>
     void for_each_run(const PlacedTriangle& triangle, const Visit& visit) const;
+    /// Distance of a place on an edge from the one between two posts; 0 where one of them is not valid or not
+    /// here.
+    double off(const glm::dvec3& drawn, const GridPoint& from, const GridPoint& to, double part) const;
     Result<void> read_heights(const Pyramid& pyramid);
     /// Has the block any data in the square?
     bool take(const GridPoint& corner, int level, const BlockHeights& block);

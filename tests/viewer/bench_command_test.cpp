@@ -71,9 +71,10 @@ TEST_F(BenchCommand, LeavesFiguresAndAPage) {
     EXPECT_EQ(json["scene"]["posts"], 129 * 129);
     EXPECT_GT(json["machine"]["cores"], 0);
 
-    // 3 taus: two metrics, each with the morph and without it; the textbook; full; two rows with a budget.
+    // 3 taus: two metrics and lstr, each with the morph and without it; the textbook; full; two rows with a
+    // budget.
     const auto& rows = json["rows"];
-    ASSERT_EQ(rows.size(), 2u * 2 * 3 + 3 + 1 + 2);
+    ASSERT_EQ(rows.size(), 3u * 2 * 3 + 3 + 1 + 2);
     std::set<std::string> methods;
     for (const auto& row : rows) {
         const std::string method = row["method"];
@@ -106,8 +107,9 @@ TEST_F(BenchCommand, LeavesFiguresAndAPage) {
             EXPECT_GT(row["refine_time_to_textbook"]["median"], 0);
         }
     }
-    EXPECT_EQ(methods, (std::set<std::string>{"full", "soar-bounded", "soar-incremental", "textbook"}));
-    EXPECT_EQ(json["morph_price"].size(), 6u);
+    EXPECT_EQ(methods,
+              (std::set<std::string>{"full", "lstr", "soar-bounded", "soar-incremental", "textbook"}));
+    EXPECT_EQ(json["morph_price"].size(), 9u);
     EXPECT_TRUE(json["ocean"].is_array() && json["ocean"].empty()) << "there is no sea";
     EXPECT_TRUE(json["ocean_at"].is_null() && json["ocean_left_out"].is_null());
     EXPECT_FALSE(fs::exists(out_ / "ocean.csv"));

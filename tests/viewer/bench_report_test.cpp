@@ -118,12 +118,12 @@ TEST(BenchSummary, ComparesAtEqualError) {
 TEST(BenchOptions, SettingsAreAllThatWasAskedFor) {
     BenchOptions options;
     options.taus = {1, 2};
-    EXPECT_EQ(bench_settings(options).size(), 4u + 4 + 2 + 1);
+    EXPECT_EQ(bench_settings(options).size(), 4u + 4 + 4 + 2 + 1);
     options.morphs = {true};
     const auto morphing = bench_settings(options);
-    EXPECT_EQ(morphing.size(), 2u + 2 + 2 + 1);
+    EXPECT_EQ(morphing.size(), 2u + 2 + 2 + 2 + 1);
     EXPECT_TRUE(morphing[0].morph);
-    EXPECT_FALSE(morphing[4].morph) << "the textbook has none";
+    EXPECT_FALSE(morphing[6].morph) << "the textbook has none";
     options.budget.frame_ms = 33;
     const auto with_budget = bench_settings(options);
     EXPECT_EQ(with_budget.size(), morphing.size() + 1);

@@ -108,7 +108,7 @@ TEST_F(RenderCommand, WritesPngJpegAndTiff) {
 TEST_F(RenderCommand, RefusesWhatMakesNoSense) {
     // One of each kind; what a view may be is tested with its string.
     for (const char* flags :
-         {"--fov 180", "--eye 91,0,0", "--eye here", "--layer imagery", "--lod lstr", "--metric best",
+         {"--fov 180", "--eye 91,0,0", "--eye here", "--layer imagery", "--lod cdlod", "--metric best",
           "--morph maybe", "--sun noon", "--samples 3", "--background 0,0,256", "--at 1,2", "--size 0x10",
           "--size 10x16385", "--max-triangles 5", "--unknown"}) {
         const auto run = relevo("render " + scene_ + " -o " + picture_ + " " + flags);

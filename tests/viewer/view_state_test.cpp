@@ -96,7 +96,7 @@ TEST(ViewString, RefusesWhatMakesNoSense) {
                              "0,0,0/layer=imagery",
                              "0,0,0/layer=terrain",
                              "0,0,0/layer=mud",
-                             "0,0,0/lod=lstr",
+                             "0,0,0/lod=cdlod",
                              "0,0,0/sun=noon",
                              "0,0,0/sun=10",
                              "0,0,0/morph=yes",

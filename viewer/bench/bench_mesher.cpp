@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "lod/lstr/chunk_file.hpp"
+
 namespace relevo::viewer {
 
 namespace {
@@ -36,6 +38,9 @@ Result<std::unique_ptr<BenchMesher>> BenchMesher::create(const lod::Scene& scene
     if (paging == Paging::waited_for) tiles.fade_s = 0;
     auto terrain = lod::Terrain::open(scene, metric, tiles);
     if (!terrain) return terrain.error();
+    if (method == BenchMethod::lstr) {
+        if (auto done = lod::provide_chunks(scene, *terrain); !done) return done.error();
+    }
     return std::unique_ptr<BenchMesher>(new BenchMesher(std::move(*terrain), std::move(textbook), paging));
 }
 
@@ -48,7 +53,9 @@ Result<BenchMesher::Made> BenchMesher::mesh(const lod::View& view, const ViewSta
         return Made{&textbook_->mesh(view), refine_ms};  // putting it on the earth is not the textbook's
     }
     ViewState asked = state;
-    asked.method = setting.method == BenchMethod::full ? Method::full : Method::soar;
+    asked.method = setting.method == BenchMethod::full   ? Method::full
+                   : setting.method == BenchMethod::lstr ? Method::lstr
+                                                         : Method::soar;
     asked.morph = setting.morph;
     asked.tau_px = tau_px;
     const auto timed = [&] {
@@ -57,7 +64,7 @@ Result<BenchMesher::Made> BenchMesher::mesh(const lod::View& view, const ViewSta
         return Made{&made, ms_since(start)};
     };
     const Made made = timed();
-    if (asked.method == Method::full || !waits() || is_whole()) return made;
+    if (asked.method != Method::soar || !waits() || is_whole()) return made;
     // The time of a mesh is that of all it needs, and its error is held to tau: what was missing is read
     // first.
     if (const auto whole = mesher_.whole_mesh(view, asked); !whole) return whole.error();

@@ -12,6 +12,8 @@ std::string_view to_string(BenchMethod method) {
             return "soar-bounded";
         case BenchMethod::soar_incremental:
             return "soar-incremental";
+        case BenchMethod::lstr:
+            return "lstr";
         case BenchMethod::textbook:
             return "textbook";
         case BenchMethod::full:
@@ -24,8 +26,9 @@ Result<BenchMethod> parse_bench_method(std::string_view text) {
     for (const BenchMethod method : BenchOptions{}.methods) {
         if (text == to_string(method)) return method;
     }
-    return Error{ErrorKind::usage,
-                 fmt::format("no method \"{}\": soar-bounded, soar-incremental, textbook or full", text)};
+    return Error{
+        ErrorKind::usage,
+        fmt::format("no method \"{}\": soar-bounded, soar-incremental, lstr, textbook or full", text)};
 }
 
 std::vector<BenchSetting> bench_settings(const BenchOptions& options) {
@@ -57,6 +60,8 @@ std::string_view series_name(const BenchSetting& setting) {
             return setting.morph ? "soar-bounded, morph" : "soar-bounded";
         case BenchMethod::soar_incremental:
             return setting.morph ? "soar-incremental, morph" : "soar-incremental";
+        case BenchMethod::lstr:
+            return setting.morph ? "lstr, morph" : "lstr";
         case BenchMethod::textbook:
         case BenchMethod::full:
             break;

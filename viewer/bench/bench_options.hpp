@@ -16,6 +16,7 @@ namespace relevo::viewer {
 enum class BenchMethod {
     soar_bounded,      ///< the product's refinement by the bounded error
     soar_incremental,  ///< by the reference's midpoint error
+    lstr,              ///< nodes of a quadtree
     textbook,          ///< the reference's refinement as printed: the yardstick
     full,              ///< every triangle of the data
 };
@@ -23,7 +24,8 @@ std::string_view to_string(BenchMethod method);
 Result<BenchMethod> parse_bench_method(std::string_view text);
 
 constexpr bool has_morph(BenchMethod method) {
-    return method == BenchMethod::soar_bounded || method == BenchMethod::soar_incremental;
+    return method == BenchMethod::soar_bounded || method == BenchMethod::soar_incremental ||
+           method == BenchMethod::lstr;
 }
 constexpr bool has_tau(BenchMethod method) {
     return method != BenchMethod::full;
@@ -34,7 +36,7 @@ struct BenchOptions {
     int height = 720;
     int samples = 1;
     std::vector<BenchMethod> methods{BenchMethod::soar_bounded, BenchMethod::soar_incremental,
-                                     BenchMethod::textbook, BenchMethod::full};
+                                     BenchMethod::lstr, BenchMethod::textbook, BenchMethod::full};
     std::vector<bool> morphs{false, true};
     std::vector<double> taus{0.25, 0.5, 1, 2, 4, 8, 16};
     int frames = 20;      ///< of each row and run, at equal times along the flight

@@ -33,6 +33,8 @@ const char* colour_of(const BenchSetting& setting) {
             return "#0072b2";
         case BenchMethod::soar_incremental:
             return "#d55e00";
+        case BenchMethod::lstr:
+            return "#e69f00";
         case BenchMethod::textbook:
             return "#009e73";
         case BenchMethod::full:

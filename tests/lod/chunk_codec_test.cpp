@@ -1,0 +1,70 @@
+#include "lod/lstr/chunk_codec.hpp"
+
+#include <cstddef>
+
+#include <gtest/gtest.h>
+
+#include "lod/lstr/chunk_set.hpp"
+#include "tests/lod/synthetic_terrain.hpp"
+
+namespace relevo::lod {
+namespace {
+
+class ChunkCodec : public testing::Test {
+  protected:
+    ChunkCodec() {
+        const auto frame = test::geographic_frame(129, 129);
+        const auto heights = test::make_heights(
+            frame, [](int column, int row) { return 50 * test::noise(column / 3, row / 3) - 20; });
+        const Terrain terrain = test::make_terrain(frame, heights);
+        const auto chunks = MemoryChunks::build(terrain, ChunkErrors{kFirst});
+        mesh_ = **chunks->mesh({1, 1, 0});
+    }
+
+    static constexpr double kFirst = 4;
+    ChunkMesh mesh_;
+};
+
+TEST_F(ChunkCodec, GivesBackWhatItTook) {
+    const auto bytes = encode_chunk(mesh_, kFirst);
+    const auto back = decode_chunk(bytes, mesh_.id, kFirst, "trial");
+    ASSERT_TRUE(back);
+    ASSERT_EQ(back->vertices.size(), mesh_.vertices.size());
+    for (std::size_t i = 0; i < mesh_.vertices.size(); ++i) {
+        EXPECT_EQ(back->vertices[i].at, mesh_.vertices[i].at);
+        EXPECT_EQ(back->vertices[i].H, mesh_.vertices[i].H);
+        EXPECT_NEAR(back->vertices[i].coarse_H, mesh_.vertices[i].coarse_H, kFirst / 1000);
+    }
+    EXPECT_EQ(back->triangles, mesh_.triangles);
+    for (std::size_t side = 0; side < kSides; ++side) {
+        ASSERT_EQ(back->sides[side].size(), mesh_.sides[side].size());
+        for (std::size_t i = 0; i < mesh_.sides[side].size(); ++i) {
+            EXPECT_EQ(back->sides[side][i].vertex, mesh_.sides[side][i].vertex);
+            EXPECT_EQ(back->sides[side][i].kept, mesh_.sides[side][i].kept);
+        }
+    }
+    EXPECT_EQ(encode_chunk(mesh_, kFirst), bytes);
+}
+
+TEST_F(ChunkCodec, DamagedBytesAreSaid) {
+    const auto bytes = encode_chunk(mesh_, kFirst);
+    for (std::size_t length = 0; length < bytes.size(); length += 97) {
+        EXPECT_FALSE(decode_chunk(std::span(bytes).first(length), mesh_.id, kFirst, "trial")) << length;
+    }
+    // A flipped bit is found, or gives a mesh whose indices can be used: checksums are the file's.
+    for (std::size_t at = 0; at < bytes.size(); at += 31) {
+        auto flipped = bytes;
+        flipped[at] ^= std::byte{16};
+        const auto mesh = decode_chunk(flipped, mesh_.id, kFirst, "trial");
+        if (!mesh) {
+            EXPECT_EQ(mesh.error().kind, ErrorKind::damaged);
+            continue;
+        }
+        for (const IndexTriangle& t : mesh->triangles) {
+            for (const std::uint32_t v : t) ASSERT_LT(v, mesh->vertices.size());
+        }
+    }
+}
+
+}  // namespace
+}  // namespace relevo::lod
