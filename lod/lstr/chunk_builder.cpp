@@ -253,7 +253,7 @@ double error_in(const PostField& field, const ChunkShape& shape) {
 }
 
 ChunkMesh finished(const ChunkShape& shape, const CoarseSurface* coarse) {
-    ChunkMesh mesh{shape.id, shape.error_m, {}, shape.triangles, {}};
+    ChunkMesh mesh{shape.id, shape.error_m, shape.error_m, {}, shape.triangles, {}};
     mesh.vertices.reserve(shape.posts.size());
     for (const PlacedPost& post : shape.posts)
         mesh.vertices.push_back({post.at, post.H, coarse ? coarse->height(post) : post.H});
@@ -322,6 +322,16 @@ ChunkShape ChunkBuilder::simplified(const PostField& field, const ChunkId& id, P
     return shape;
 }
 
+/// A mesh whose vertices are where the coarser level is.
+ChunkShape ChunkBuilder::moved(const ChunkShape& shape, const CoarseSurface& coarse) const {
+    ChunkShape made = shape;
+    for (PlacedPost& post : made.posts) {
+        post.H = coarse.height(post);
+        post.position = terrain_.position(post.at.column, post.at.row, static_cast<double>(post.H), 1);
+    }
+    return made;
+}
+
 ChunkShape ChunkBuilder::build_in(const PostField& field, const ChunkId& id,
                                   std::vector<ChunkMesh>& done) const {
     if (!has_data(id, terrain_.frame())) return empty_shape(field, id, errors_);
@@ -331,7 +341,9 @@ ChunkShape ChunkBuilder::build_in(const PostField& field, const ChunkId& id,
     ChunkShape shape = simplified(field, id, joined(id, children));
     const CoarseSurface coarse(shape);
     for (const ChunkShape& child : children) {
-        if (has_data(child.id, terrain_.frame())) done.push_back(finished(child, &coarse));
+        if (!has_data(child.id, terrain_.frame())) continue;
+        done.push_back(finished(child, &coarse));
+        done.back().moved_error_m = error_in(field, moved(child, coarse)) + 4e-7 * field.extent_m();
     }
     return shape;
 }
@@ -351,8 +363,8 @@ Result<ChunkBuilder::Piece> ChunkBuilder::build_piece(const ChunkId& id) const {
     return piece;
 }
 
-/// The error against all posts of a mesh that was simplified by some of them.
-Result<void> ChunkBuilder::measure(ChunkShape& shape) const {
+/// The error of a mesh of kPieceLevel or coarser against all posts.
+Result<double> ChunkBuilder::measured(const ChunkShape& shape) const {
     const int below = shape.id.level - kPieceLevel;
     const int side = 1 << below;
     std::vector<double> errors(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
@@ -363,15 +375,14 @@ Result<void> ChunkBuilder::measure(ChunkShape& shape) const {
         if (!has_data(piece, terrain_.frame())) return;
         const auto field = PostField::read(terrain_, piece.first(), piece.cells(), 1);
         if (field)
-            errors[static_cast<std::size_t>(i)] = error_in(*field, shape);
+            errors[static_cast<std::size_t>(i)] = error_in(*field, shape) + 4e-7 * field->extent_m();
         else
             failures[static_cast<std::size_t>(i)] = field.error();
     });
     for (const auto& failure : failures) {
         if (failure) return *failure;
     }
-    for (const double error : errors) shape.error_m = std::max(shape.error_m, error);
-    return {};
+    return *std::max_element(errors.begin(), errors.end());
 }
 
 Result<ChunkShape> ChunkBuilder::build_above(const ChunkId& id, const Sink& sink) const {
@@ -397,11 +408,17 @@ Result<ChunkShape> ChunkBuilder::build_above(const ChunkId& id, const Sink& sink
     const auto field = PostField::read(terrain_, id.first(), id.cells(), 1 << (id.level - kPieceLevel));
     if (!field) return field.error();
     ChunkShape shape = simplified(*field, id, joined(id, children));
-    if (auto done = measure(shape); !done) return done.error();
+    const auto against_all = measured(shape);
+    if (!against_all) return against_all.error();
+    shape.error_m = std::max(shape.error_m, *against_all);
     const CoarseSurface coarse(shape);
     for (const ChunkShape& child : children) {
         if (!has_data(child.id, terrain_.frame())) continue;
-        if (auto done = sink(finished(child, &coarse)); !done) return done.error();
+        ChunkMesh mesh = finished(child, &coarse);
+        const auto moved_error = measured(moved(child, coarse));
+        if (!moved_error) return moved_error.error();
+        mesh.moved_error_m = *moved_error;
+        if (auto done = sink(mesh); !done) return done.error();
     }
     return shape;
 }

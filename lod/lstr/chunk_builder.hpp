@@ -43,6 +43,7 @@ struct SideVertex {
 struct ChunkMesh {
     ChunkId id;
     double error_m = 0;
+    double moved_error_m = 0;  ///< where its vertices have moved to the coarser level
     std::vector<ChunkVertex> vertices;
     std::vector<IndexTriangle> triangles;
     std::array<std::vector<SideVertex>, kSides> sides;  ///< by column or by row, corners included
@@ -68,7 +69,8 @@ class ChunkBuilder {
 
     struct Piece;
     Result<Piece> build_piece(const ChunkId& id) const;
-    Result<void> measure(ChunkShape& shape) const;
+    Result<double> measured(const ChunkShape& shape) const;
+    ChunkShape moved(const ChunkShape& shape, const CoarseSurface& coarse) const;
     Result<ChunkShape> build_above(const ChunkId& id, const Sink& sink) const;
     ChunkShape build_in(const PostField& field, const ChunkId& id, std::vector<ChunkMesh>& done) const;
     ChunkShape simplified(const PostField& field, const ChunkId& id, PlanarMesh mesh) const;

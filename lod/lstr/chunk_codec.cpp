@@ -118,7 +118,7 @@ Result<ChunkMesh> decode_chunk(std::span<const std::byte> bytes, const ChunkId& 
     if (!unpacked) return unpacked.error();
     NumberReader numbers(*unpacked);
 
-    ChunkMesh mesh{id, 0, {}, {}, {}};
+    ChunkMesh mesh{id, 0, 0, {}, {}, {}};
     const std::int64_t vertices = numbers.next();
     const std::int64_t triangles = numbers.next();
     // Each takes a byte at least.

@@ -20,7 +20,7 @@ namespace relevo::lod {
 
 namespace {
 
-constexpr std::array<char, 8> kMagic{'r', 'e', 'l', 'c', 'h', 'n', 'k', '1'};
+constexpr std::array<char, 8> kMagic{'r', 'e', 'l', 'c', 'h', 'n', 'k', '2'};
 
 /// At the file's beginning; little-endian, as the machines that this runs on are.
 struct Head {
@@ -37,10 +37,10 @@ struct Row {
     std::int32_t level, column, row, reserved;
     std::uint64_t offset, bytes;
     std::array<char, 16> checksum;
-    double error_m, most_H_m;
+    double error_m, moved_error_m, most_H_m;
     std::array<double, 3> middle, half;
 };
-static_assert(std::is_trivially_copyable_v<Row> && sizeof(Row) == 112);
+static_assert(std::is_trivially_copyable_v<Row> && sizeof(Row) == 120);
 
 template <std::size_t N>
 std::array<char, N> start_of(const std::string& text) {
@@ -172,6 +172,7 @@ Result<void> ChunkFile::build(const Scene& scene, const Terrain& terrain,
         row.bytes = bytes.size();
         row.checksum = start_of<16>(sha256_hex(bytes));
         row.error_m = node.error_m;
+        row.moved_error_m = node.moved_error_m;
         row.most_H_m = node.most_H_m;
         for (int axis = 0; axis < 3; ++axis) {
             row.middle[static_cast<std::size_t>(axis)] = node.box.middle[axis];
@@ -226,6 +227,7 @@ Result<ChunkFile> ChunkFile::open(const Scene& scene, const Terrain& terrain) {
         Entry entry;
         entry.place = {row.offset, row.bytes, row.checksum};
         entry.node.error_m = row.error_m;
+        entry.node.moved_error_m = row.moved_error_m;
         entry.node.most_H_m = row.most_H_m;
         entry.node.box.axes = ChunkBox::axes_at(terrain, id);
         for (int axis = 0; axis < 3; ++axis) {
@@ -262,6 +264,7 @@ Result<std::shared_ptr<const ChunkMesh>> ChunkFile::mesh(const ChunkId& id) cons
     auto mesh = decode_chunk(*bytes, id, ChunkErrors{first_error_m_}.of_level(id.level), name_);
     if (!mesh) return mesh.error();
     mesh->error_m = entry.node.error_m;
+    mesh->moved_error_m = entry.node.moved_error_m;
     return std::make_shared<const ChunkMesh>(*std::move(mesh));
 }
 

@@ -54,7 +54,7 @@ PlacedChunk placed(const Terrain& terrain, const ChunkMesh& mesh, double exagger
 /// What a leaf is made of when it is not read from anywhere: all of its posts.
 ChunkMesh leaf_mesh(const Terrain& terrain, const ChunkId& id, const Raster<float>& block,
                     const CoarseSurface* coarse) {
-    ChunkMesh mesh{id, 0, {}, {}, {}};
+    ChunkMesh mesh{id, 0, 0, {}, {}, {}};
     const GridPoint first = id.first();
     const int cells = std::min(id.cells(), block.columns() - 1);
     const int in_block = Pyramid::kBlockCells - 1;
@@ -110,7 +110,9 @@ std::vector<ChunkRange> chunk_ranges(const std::vector<ChunkSet::Level>& levels,
     for (std::size_t level = 0; level + 1 < levels.size(); ++level) {
         const ChunkSet::Level& next = levels[level + 1];
         // Exaggerated heights are off by as many times as much, and the curvature is not exaggerated.
-        const double error_m = std::max(next.error_m * std::max(options.exaggeration, 1.0), finer_m);
+        const double reached_m =
+            options.morph ? std::max(next.error_m, levels[level].moved_error_m) : next.error_m;
+        const double error_m = std::max(reached_m * std::max(options.exaggeration, 1.0), finer_m);
         const double diameter_m = levels[level].diameter_m + 2 * std::abs(options.exaggeration - 1) *
                                                                  levels[level].most_H_m * std::sqrt(3.0);
         // A vertex of this level may be as far as the level below ends and this one's node is wide.

@@ -6,7 +6,7 @@
 namespace relevo::lod {
 
 ChunkNode chunk_node(const Terrain& terrain, const ChunkMesh& mesh) {
-    ChunkNode node{ChunkBox::of(terrain, mesh), mesh.error_m, 0};
+    ChunkNode node{ChunkBox::of(terrain, mesh), mesh.error_m, mesh.moved_error_m, 0};
     for (const ChunkVertex& vertex : mesh.vertices)
         node.most_H_m = std::max({node.most_H_m, std::abs(static_cast<double>(vertex.H)),
                                   std::abs(static_cast<double>(vertex.coarse_H))});
@@ -15,6 +15,7 @@ ChunkNode chunk_node(const Terrain& terrain, const ChunkMesh& mesh) {
 
 void add_to_level(const ChunkNode& node, ChunkSet::Level& level) {
     level.error_m = std::max(level.error_m, node.error_m);
+    level.moved_error_m = std::max(level.moved_error_m, node.moved_error_m);
     level.diameter_m = std::max(level.diameter_m, node.box.diameter_m());
     level.most_H_m = std::max(level.most_H_m, node.most_H_m);
 }

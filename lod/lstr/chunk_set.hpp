@@ -14,6 +14,7 @@ namespace relevo::lod {
 struct ChunkNode {
     ChunkBox box;
     double error_m = 0;
+    double moved_error_m = 0;
     double most_H_m = 0;  ///< largest |H| of its vertices
 };
 
@@ -31,6 +32,7 @@ class ChunkSet {
     /// What nodes of a level are off the ground, and how large they are, at most. By level; of leaves 0.
     struct Level {
         double error_m = 0;
+        double moved_error_m = 0;
         double diameter_m = 0;
         double most_H_m = 0;
     };
