@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/command.hpp"
+#include "lod/lstr/chunk_check.hpp"
+#include "lod/lstr/chunk_file.hpp"
 #include "lod/pyramid/scene_pyramid.hpp"
 #include "lod/pyramid/whole_grid.hpp"
 #include "lod/scene_check.hpp"
@@ -117,11 +119,33 @@ Result<void> check_views(const lod::Scene& scene, const CheckOptions& options, J
     return {};
 }
 
+/// The quadtree of `--lod lstr`, where there is one.
+Result<void> check_quadtree(const lod::Scene& scene, const CheckOptions& options, Json& report) {
+    if (!lod::ChunkFile::is_there(scene)) return {};
+    const auto terrain = lod::Terrain::open(scene, lod::ErrorMetric::bounded, {});
+    if (!terrain) return terrain.error();
+    const auto chunks = lod::ChunkFile::open(scene, *terrain);
+    if (!chunks) return chunks.error();
+    const std::vector<std::string> faults = lod::check_chunks(*chunks, progress_bar(options, "chunks"));
+    report["chunks"] = chunks->index().size();
+    report["chunk_faults"] = faults;
+    if (!options.json) {
+        fmt::print("nodes of the quadtree: {}, faults: {}\n", chunks->index().size(), faults.size());
+        for (const std::string& fault : faults) fmt::print("  {}\n", fault);
+    }
+    if (!faults.empty()) {
+        return Error{ErrorKind::damaged,
+                     fmt::format("{}; delete the file, and it is made anew", faults.front())};
+    }
+    return {};
+}
+
 Result<void> check(const CheckOptions& options) {
     const auto scene = lod::Scene::open(options.scene);
     if (!scene) return scene.error();
     Json report = {{"scene", options.scene.filename().string()}};
     Result<void> outcome = check_files(*scene, options, report);
+    if (outcome) outcome = check_quadtree(*scene, options, report);
     if (outcome && !options.files_only) outcome = check_nesting(*scene, options, report);
     if (outcome && !options.files_only && scene->info().valid_posts > 0) {
         outcome = check_views(*scene, options, report);

@@ -7,6 +7,8 @@
 
 #include "geo/position.hpp"
 #include "geo/result.hpp"
+#include "lod/scene/scene.hpp"
+#include "lod/terrain.hpp"
 
 namespace relevo::app {
 
@@ -29,7 +31,11 @@ void add_render(CLI::App& program, Action& action);
 void add_bench(CLI::App& program, Action& action);
 void add_measure(CLI::App& program, Action& action);
 void add_check(CLI::App& program, Action& action);
+void add_chunks(CLI::App& program, Action& action);
 void add_export(CLI::App& program, Action& action);
+
+/// Makes a scene's chunks.bin, with a progress bar; Ctrl-C stops it, and it can be gone on with.
+Result<void> make_chunks(const lod::Scene& scene, const lod::Terrain& terrain, const Common& common);
 
 /// A progress bar on stderr, for terminals only: call it with the part done, 0 to 1.
 std::function<void(double)> progress_bar(const Common& common, std::string what);

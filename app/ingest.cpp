@@ -43,6 +43,7 @@ struct Settings {
     double max_height_error = 0;
     std::uint64_t memory = std::uint64_t{1} << 30;
     bool resume = false;
+    bool chunks = false;
     std::string resampling;
     std::vector<double> resolution;
     std::vector<double> crop;
@@ -188,18 +189,33 @@ nlohmann::json imported_json(const Settings& s, const ingest::Imported& imported
     return json;
 }
 
-Result<void> run_import(const Settings& s) {
+Result<ingest::Imported> import(const Settings& s) {
     const StopOnSignal signals;
     const auto bar = progress_bar(s.common, "importing");
-    const auto start = std::chrono::steady_clock::now();
     const auto options = options_of(s);
     if (!options) return options.error();
     const ingest::ImportPlace place{std::filesystem::absolute(s.scene), s.overwrite, s.resume};
-    const auto imported = ingest::import_scene(*options, place, [&](double done) {
+    return ingest::import_scene(*options, place, [&](double done) {
         bar(done);
         return !signals.stop_asked();
     });
+}
+
+Result<void> add_quadtree(const Settings& s) {
+    const auto scene = lod::Scene::open(s.scene);
+    if (!scene) return scene.error();
+    const auto terrain = lod::Terrain::open(*scene, lod::ErrorMetric::bounded, {});
+    if (!terrain) return terrain.error();
+    return make_chunks(*scene, *terrain, s.common);
+}
+
+Result<void> run_import(const Settings& s) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto imported = import(s);
     if (!imported) return imported.error();
+    if (s.chunks) {
+        if (auto done = add_quadtree(s); !done) return done;
+    }
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     print_notes(s, imported->notes);
     const lod::SceneInfo& info = imported->info;
@@ -237,6 +253,7 @@ void add_ingest(CLI::App& program, Action& action) {
     command.add_option("-o,--output", s.scene, "The scene to make, NAME.relevo");
     command.add_flag("--overwrite", s.overwrite, "Replace a scene of that name");
     command.add_flag("--resume", s.resume, "Go on from what the same import has left when it was stopped");
+    command.add_flag("--chunks", s.chunks, "Make what `--lod lstr` draws, too: else it is made on first use");
     command.add_flag("--dry-run", s.dry_run, "Say what would be made (posts, bytes), and make nothing");
     command.add_option("--crs", s.crs,
                        "Coordinate reference system of the file, e.g. EPSG:32611, in place of its own");

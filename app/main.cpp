@@ -45,6 +45,7 @@ int run(int argc, char** argv) {
 #endif
     app::add_measure(program, action);
     app::add_check(program, action);
+    app::add_chunks(program, action);
     app::add_export(program, action);
 
     try {

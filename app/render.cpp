@@ -9,7 +9,7 @@
 
 #include "app/command.hpp"
 #include "app/view_flags.hpp"
-#include "lod/lstr/chunk_file.hpp"
+#include "lod/lstr/chunk_making.hpp"
 #include "viewer/bench/machine.hpp"
 #include "viewer/numbers.hpp"
 #include "viewer/offscreen.hpp"
@@ -123,7 +123,11 @@ Result<void> run(const RenderFlags& flags) {
     if (!terrain) return terrain.error();
     if (view->method == viewer::Method::lstr) {
         const auto bar = progress_bar(flags.common, "making the quadtree");
-        if (auto done = lod::provide_chunks(*scene, *terrain, bar); !done) return done;
+        const auto shown = [&bar](double done) {
+            bar(done);
+            return true;
+        };
+        if (auto done = lod::provide_chunks(*scene, *terrain, shown); !done) return done;
     }
     const viewer::EyeHeight heights(scene->geoid());
     place_view(*view, flags.view, *scene, *terrain, heights, *size);

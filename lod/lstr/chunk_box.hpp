@@ -3,7 +3,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
-#include "lod/lstr/chunk_builder.hpp"
+#include "lod/lstr/chunk_mesh.hpp"
 #include "lod/terrain.hpp"
 #include "lod/view.hpp"
 

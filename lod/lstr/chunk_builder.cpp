@@ -11,6 +11,7 @@
 #include <tbb/parallel_for.h>
 
 #include "lod/lstr/border_line.hpp"
+#include "lod/lstr/mesh_error.hpp"
 #include "lod/soar/cell.hpp"
 #include "lod/static_mesh/grid_triangle.hpp"
 
@@ -262,38 +263,6 @@ bool is_removable(const PostField& field, const GridPoint& at, double margin_m) 
            near(H(1, 0), H(-1, 0));
 }
 
-/// The largest error of a mesh in a field's square.
-double error_in(const PostField& field, const ChunkShape& shape) {
-    double error = 0;
-    for (const IndexTriangle& t : shape.triangles) {
-        error = std::max(error,
-                         field.error({&shape.posts[t[0]], &shape.posts[t[1]], &shape.posts[t[2]]}, INFINITY));
-        for (std::size_t i = 0; i < 3; ++i)
-            error =
-                std::max(error, field.edge_error(shape.posts[t[i]], shape.posts[t[(i + 1) % 3]], INFINITY));
-    }
-    return error;
-}
-
-/// With what floats of positions relative to the field's middle may hide.
-double rounded(const PostField& field, double error_m) {
-    return error_m + 4e-7 * field.extent_m();
-}
-
-ChunkMesh finished(const ChunkShape& shape, const CoarseSurface* coarse) {
-    ChunkMesh mesh{shape.id, shape.error_m, shape.error_m, {}, shape.triangles, {}};
-    mesh.vertices.reserve(shape.posts.size());
-    for (const PlacedPost& post : shape.posts)
-        mesh.vertices.push_back({post.at, post.H, coarse ? coarse->height(post) : post.H});
-    for (int side = 0; side < kSides; ++side) {
-        for (const std::uint32_t v : shape.side(static_cast<Side>(side))) {
-            mesh.sides[static_cast<std::size_t>(side)].push_back(
-                {v, coarse == nullptr || coarse->has(shape.posts[v].at)});
-        }
-    }
-    return mesh;
-}
-
 }  // namespace
 
 ChunkErrors ChunkErrors::for_spacing(double spacing_m) {
@@ -366,33 +335,23 @@ ChunkShape ChunkBuilder::simplified(const PostField& field, const ChunkId& id, P
     return shape;
 }
 
-/// A mesh whose vertices are where the coarser level is.
-ChunkShape ChunkBuilder::moved(const ChunkShape& shape, const CoarseSurface& coarse) const {
-    ChunkShape made = shape;
-    for (PlacedPost& post : made.posts) {
-        post.H = coarse.height(post);
-        post.position = terrain_.position(post.at.column, post.at.row, static_cast<double>(post.H), 1);
-    }
-    return made;
-}
-
 ChunkShape ChunkBuilder::build_in(const PostField& field, const ChunkId& id,
                                   std::vector<ChunkMesh>& done) const {
     if (!has_data(id, terrain_.frame())) return empty_shape(field, id, errors_);
     if (id.level == 1) {
         ChunkShape shape = simplified(field, id, refined(field, id));
-        shape.error_m = rounded(field, error_in(field, shape));
+        shape.error_m = error_in(field, shape);
         return shape;
     }
     std::array<ChunkShape, 4> children;
     for (int i = 0; i < 4; ++i) children[static_cast<std::size_t>(i)] = build_in(field, id.child(i), done);
     ChunkShape shape = simplified(field, id, coarsened(field, id, children));
-    shape.error_m = rounded(field, error_in(field, shape));
+    shape.error_m = error_in(field, shape);
     const CoarseSurface coarse(shape);
     for (const ChunkShape& child : children) {
         if (!has_data(child.id, terrain_.frame())) continue;
         done.push_back(finished(child, &coarse));
-        done.back().moved_error_m = rounded(field, error_in(field, moved(child, coarse)));
+        done.back().moved_error_m = error_in(field, moved(terrain_, child, coarse));
     }
     return shape;
 }
@@ -412,35 +371,13 @@ Result<ChunkBuilder::Piece> ChunkBuilder::build_piece(const ChunkId& id) const {
     return piece;
 }
 
-/// The errors of meshes of one node against all posts. \pre kPieceLevel or coarser
-Result<std::vector<double>> ChunkBuilder::measured(const ChunkId& id,
-                                                   const std::vector<ChunkShape>& shapes) const {
-    const int below = id.level - kPieceLevel;
-    const int side = 1 << below;
-    const auto pieces = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
-    std::vector<std::vector<double>> errors(pieces, std::vector<double>(shapes.size()));
-    std::vector<std::optional<Error>> failures(pieces);
-    tbb::parallel_for(0, side * side, [&](int i) {
-        const ChunkId piece{kPieceLevel, (id.column << below) + i % side, (id.row << below) + i / side};
-        if (!has_data(piece, terrain_.frame())) return;
-        const auto at = static_cast<std::size_t>(i);
-        const auto field = PostField::read(terrain_, piece.first(), piece.cells(), 1);
-        if (!field) {
-            failures[at] = field.error();
-            return;
-        }
-        for (std::size_t k = 0; k < shapes.size(); ++k)
-            errors[at][k] = rounded(*field, error_in(*field, shapes[k]));
-    });
-    std::vector<double> most(shapes.size());
-    for (std::size_t i = 0; i < pieces; ++i) {
-        if (failures[i]) return *failures[i];
-        for (std::size_t k = 0; k < shapes.size(); ++k) most[k] = std::max(most[k], errors[i][k]);
+Result<ChunkShape> ChunkBuilder::build_above(const ChunkId& id, const Sink& sink,
+                                             const Subtrees& subtrees) const {
+    if (subtrees.find && has_data(id, terrain_.frame())) {
+        const auto known = subtrees.find(id);
+        if (!known) return known.error();
+        if (*known) return shape_of(terrain_, **known);
     }
-    return most;
-}
-
-Result<ChunkShape> ChunkBuilder::build_above(const ChunkId& id, const Sink& sink) const {
     std::array<ChunkShape, 4> children;
     if (id.level == kPieceLevel + 1) {
         std::array<std::optional<Result<Piece>>, 4> pieces;
@@ -455,7 +392,7 @@ Result<ChunkShape> ChunkBuilder::build_above(const ChunkId& id, const Sink& sink
         }
     } else {
         for (int i = 0; i < 4; ++i) {
-            auto child = build_above(id.child(i), sink);
+            auto child = build_above(id.child(i), sink, subtrees);
             if (!child) return child.error();
             children[static_cast<std::size_t>(i)] = *std::move(child);
         }
@@ -465,8 +402,8 @@ Result<ChunkShape> ChunkBuilder::build_above(const ChunkId& id, const Sink& sink
     ChunkShape shape = simplified(*field, id, coarsened(*field, id, children));
     const CoarseSurface coarse(shape);
     std::vector<ChunkShape> shapes{shape};
-    for (const ChunkShape& child : children) shapes.push_back(moved(child, coarse));
-    const auto errors = measured(id, shapes);
+    for (const ChunkShape& child : children) shapes.push_back(moved(terrain_, child, coarse));
+    const auto errors = errors_in(terrain_, id, shapes);
     if (!errors) return errors.error();
     for (std::size_t i = 0; i < children.size(); ++i) {
         if (!has_data(children[i].id, terrain_.frame())) continue;
@@ -475,10 +412,13 @@ Result<ChunkShape> ChunkBuilder::build_above(const ChunkId& id, const Sink& sink
         if (auto done = sink(mesh); !done) return done.error();
     }
     shape.error_m = errors->front();
+    if (subtrees.keep && has_data(id, terrain_.frame())) {
+        if (auto done = subtrees.keep(finished(shape, nullptr)); !done) return done.error();
+    }
     return shape;
 }
 
-Result<void> ChunkBuilder::build(const Sink& sink) const {
+Result<void> ChunkBuilder::build(const Sink& sink, const Subtrees& subtrees) const {
     const int top = top_chunk_level(terrain_.frame());
     if (top < 1) return {};
     const ChunkId root{top, 0, 0};
@@ -491,7 +431,7 @@ Result<void> ChunkBuilder::build(const Sink& sink) const {
         }
         shape = std::move(piece->top);
     } else {
-        auto made = build_above(root, sink);
+        auto made = build_above(root, sink, subtrees);
         if (!made) return made.error();
         shape = *std::move(made);
     }

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "geo/result.hpp"
-#include "lod/lstr/chunk_id.hpp"
+#include "lod/lstr/chunk_mesh.hpp"
 #include "lod/lstr/chunk_shape.hpp"
 #include "lod/terrain.hpp"
 
@@ -25,30 +25,6 @@ struct ChunkErrors {
     static ChunkErrors for_spacing(double spacing_m);
 };
 
-/// A vertex of a node as it is kept: its post, and the height to which it moves while the node's level gives
-/// way to the coarser one.
-struct ChunkVertex {
-    GridPoint at;
-    float H = 0;
-    float coarse_H = 0;
-};
-
-/// A vertex on a side of a node.
-struct SideVertex {
-    std::uint32_t vertex = 0;
-    bool kept = false;  ///< by the level above
-};
-
-/// The mesh of a node of level 1 or coarser, as it is kept and drawn.
-struct ChunkMesh {
-    ChunkId id;
-    double error_m = 0;
-    double moved_error_m = 0;  ///< where its vertices have moved to the coarser level
-    std::vector<ChunkVertex> vertices;
-    std::vector<IndexTriangle> triangles;
-    std::array<std::vector<SideVertex>, kSides> sides;  ///< by column or by row, corners included
-};
-
 /// Makes the meshes of all nodes from the leaves up, a square of 1024 posts at a time: each is that of its
 /// four children, of which posts are taken away as long as no post of the ground is farther off than the
 /// level may be. Posts that the filter (removable_posts.hpp) finds go first, then those in the node's middle,
@@ -60,8 +36,17 @@ class ChunkBuilder {
     /// Takes meshes in an order that depends on the terrain alone; children come before their parent. May
     /// fail.
     using Sink = std::function<Result<void>(const ChunkMesh&)>;
+
+    /// What lets a building that was interrupted go on: subtrees of 2048 posts a side and more.
+    struct Subtrees {
+        /// The mesh at a subtree's top, if all of it has been taken before.
+        std::function<Result<std::optional<ChunkMesh>>(const ChunkId&)> find;
+        /// All of a subtree has been taken but its top, which does not move yet.
+        std::function<Result<void>(const ChunkMesh&)> keep;
+    };
+
     /// Of every node of level 1 or coarser that holds data.
-    Result<void> build(const Sink& sink) const;
+    Result<void> build(const Sink& sink, const Subtrees& subtrees = {}) const;
 
   private:
     /// Nodes of this level are built from the leaves on in one piece.
@@ -69,9 +54,7 @@ class ChunkBuilder {
 
     struct Piece;
     Result<Piece> build_piece(const ChunkId& id) const;
-    Result<std::vector<double>> measured(const ChunkId& id, const std::vector<ChunkShape>& shapes) const;
-    ChunkShape moved(const ChunkShape& shape, const CoarseSurface& coarse) const;
-    Result<ChunkShape> build_above(const ChunkId& id, const Sink& sink) const;
+    Result<ChunkShape> build_above(const ChunkId& id, const Sink& sink, const Subtrees& subtrees) const;
     ChunkShape build_in(const PostField& field, const ChunkId& id, std::vector<ChunkMesh>& done) const;
     PlanarMesh refined(const PostField& field, const ChunkId& id) const;
     PlanarMesh coarsened(const PostField& field, const ChunkId& id,

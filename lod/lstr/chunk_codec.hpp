@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "geo/result.hpp"
-#include "lod/lstr/chunk_builder.hpp"
+#include "lod/lstr/chunk_mesh.hpp"
 
 namespace relevo::lod {
 

@@ -1,14 +1,12 @@
 #pragma once
 
-#include <array>
-#include <filesystem>
-#include <functional>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "geo/result.hpp"
+#include "lod/lstr/chunk_format.hpp"
+#include "lod/lstr/chunk_index.hpp"
 #include "lod/lstr/chunk_set.hpp"
 #include "lod/scene/folder.hpp"
 #include "lod/scene/scene.hpp"
@@ -16,9 +14,7 @@
 
 namespace relevo::lod {
 
-/// The nodes of a scene's quadtree in one file, `chunks.bin` in the scene's folder (docs/lstr.md): each on
-/// its own, compressed and with a checksum, then a table of what is known of them. It is made beside its
-/// place as the nodes come and takes the place when it is whole.
+/// The nodes of a scene's quadtree in one file, `chunks.bin` in the scene's folder.
 class ChunkFile final : public ChunkSet {
   public:
     static constexpr const char* kName = "chunks.bin";
@@ -26,40 +22,46 @@ class ChunkFile final : public ChunkSet {
     /// Is there one of this very scene? (It may still be damaged.)
     static bool is_there(const Scene& scene);
 
-    /// Makes it, in place of another. \param progress  gets the part of the nodes that is done, 0 to 1
-    static Result<void> build(const Scene& scene, const Terrain& terrain,
-                              const std::function<void(double)>& progress);
-
     /// Fails with ErrorKind::damaged where it cannot be trusted.
     static Result<ChunkFile> open(const Scene& scene, const Terrain& terrain);
 
     const ChunkNode* node(const ChunkId& id) const override;
     Result<std::shared_ptr<const ChunkMesh>> mesh(const ChunkId& id) const override;
+
+    const std::string& name() const { return name_; }
+    const ChunkIndex& index() const { return index_; }
     std::uint64_t bytes() const { return bytes_; }
-    std::vector<ChunkId> nodes() const;
+    bool is_replaced(const ChunkId& id) const;
 
   private:
-    struct Place {
-        std::uint64_t offset = 0;
-        std::uint64_t bytes = 0;
-        std::array<char, 16> checksum{};  // of its SHA-256
-    };
     struct Entry {
         ChunkNode node;
-        Place place;
+        std::uint64_t offset = 0;
+        std::uint64_t bytes = 0;
+        std::array<char, 16> checksum{};
+        bool replaced = false;
     };
-    ChunkFile() = default;
+    explicit ChunkFile(const geo::GridFrame& frame) : index_(frame) {}
 
     std::string name_;
     Descriptor file_;
     std::uint64_t bytes_ = 0;
     double first_error_m_ = 0;
-    std::map<ChunkId, Entry> entries_;
+    ChunkIndex index_;
+    std::vector<Entry> entries_;
 };
 
-/// Gives a terrain its scene's quadtree: from the file, which is made first where it is not there, or of
-/// another state of the scene, or in memory where the file cannot be written.
-Result<void> provide_chunks(
-    const Scene& scene, Terrain& terrain, const std::function<void(double)>& progress = [](double) {});
+/// SHA-256 of a scene's description: what its chunks belong to.
+Result<std::array<char, 64>> chunk_identity(const Scene& scene);
+
+/// How far the levels of a scene's chunks may be off the ground.
+ChunkErrors chunk_errors(const Terrain& terrain);
+
+/// A node's box and figures from its row.
+ChunkNode node_of(const Terrain& terrain, const ChunkId& id, const ChunkRow& row);
+
+/// Reads so many bytes of a file. Fails with ErrorKind::damaged where there are fewer. \param name  for that
+Result<std::vector<std::byte>> read_at(const Descriptor& file, std::uint64_t offset, std::uint64_t bytes,
+                                       const std::string& name);
 
 }  // namespace relevo::lod

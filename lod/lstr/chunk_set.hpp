@@ -6,6 +6,7 @@
 #include "geo/result.hpp"
 #include "lod/lstr/chunk_box.hpp"
 #include "lod/lstr/chunk_builder.hpp"
+#include "lod/lstr/chunk_mesh.hpp"
 
 namespace relevo::lod {
 

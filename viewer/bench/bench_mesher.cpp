@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "lod/lstr/chunk_file.hpp"
+#include "lod/lstr/chunk_making.hpp"
 
 namespace relevo::viewer {
 

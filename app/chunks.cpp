@@ -1,0 +1,145 @@
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/command.hpp"
+#include "app/stop_on_signal.hpp"
+#include "lod/lstr/chunk_file.hpp"
+#include "lod/lstr/chunk_making.hpp"
+#include "lod/lstr/chunk_replace.hpp"
+
+namespace relevo::app {
+
+namespace {
+
+struct ChunksOptions : Common {
+    std::filesystem::path scene;
+    std::string node;
+    std::filesystem::path mesh;
+};
+
+/// LEVEL/COLUMN/ROW.
+Result<lod::ChunkId> parse_node(const std::string& text) {
+    lod::ChunkId id;
+    int read = 0;
+    if (std::sscanf(text.c_str(), "%d/%d/%d%n", &id.level, &id.column, &id.row, &read) != 3 ||
+        static_cast<std::size_t>(read) != text.size())
+        return Error{ErrorKind::usage, fmt::format("{}: a node is LEVEL/COLUMN/ROW, as 3/0/2", text)};
+    return id;
+}
+
+struct Opened {
+    lod::Scene scene;
+    lod::Terrain terrain;
+};
+
+Result<Opened> open(const ChunksOptions& options) {
+    auto scene = lod::Scene::open(options.scene);
+    if (!scene) return scene.error();
+    auto terrain = lod::Terrain::open(*scene, lod::ErrorMetric::bounded, {});
+    if (!terrain) return terrain.error();
+    return Opened{*std::move(scene), *std::move(terrain)};
+}
+
+Result<void> make(const ChunksOptions& options) {
+    auto opened = open(options);
+    if (!opened) return opened.error();
+    if (auto done = make_chunks(opened->scene, opened->terrain, options); !done) return done;
+    const auto file = lod::ChunkFile::open(opened->scene, opened->terrain);
+    if (!file) return file.error();
+    if (options.json) {
+        std::cout << nlohmann::ordered_json{{"nodes", file->index().size()}, {"bytes", file->bytes()}}.dump(2)
+                  << '\n';
+    } else {
+        fmt::print("{}: {} nodes, {} bytes\n", file->name(), file->index().size(), file->bytes());
+    }
+    return {};
+}
+
+Result<void> extract(const ChunksOptions& options) {
+    const auto id = parse_node(options.node);
+    if (!id) return id.error();
+    auto opened = open(options);
+    if (!opened) return opened.error();
+    const auto file = lod::ChunkFile::open(opened->scene, opened->terrain);
+    if (!file) return file.error();
+    if (!file->index().has(*id))
+        return Error{ErrorKind::usage, fmt::format("{}: no such node", options.node)};
+    const auto mesh = file->mesh(*id);
+    if (!mesh) return mesh.error();
+    lod::ChunkGeometry geometry{{}, (*mesh)->triangles};
+    for (const lod::ChunkVertex& vertex : (*mesh)->vertices)
+        geometry.vertices.push_back({vertex.at, vertex.H});
+    std::ofstream out(options.mesh);
+    out << lod::to_obj(geometry);
+    if (!out.flush())
+        return Error{ErrorKind::input, fmt::format("{}: cannot be written", options.mesh.string())};
+    if (!options.quiet && !options.json)
+        fmt::print("{}: {} triangles, at most {:.3g} m off\n", options.mesh.string(),
+                   geometry.triangles.size(), (*mesh)->error_m);
+    return {};
+}
+
+Result<void> replace(const ChunksOptions& options) {
+    const auto id = parse_node(options.node);
+    if (!id) return id.error();
+    std::ifstream in(options.mesh);
+    const std::string text(std::istreambuf_iterator<char>(in), {});
+    if (!in) return Error{ErrorKind::input, fmt::format("{}: cannot be read", options.mesh.string())};
+    const auto geometry = lod::from_obj(text, options.mesh.string());
+    if (!geometry) return geometry.error();
+    auto opened = open(options);
+    if (!opened) return opened.error();
+    const auto error_m = lod::replace_chunk(opened->scene, opened->terrain, *id, *geometry);
+    if (!error_m) {
+        return Error{error_m.error().kind,
+                     fmt::format("{}, for node {}: {}", options.mesh.string(), options.node,
+                                 error_m.error().message)};
+    }
+    if (options.json)
+        std::cout << nlohmann::ordered_json{{"max_error_m", *error_m}}.dump(2) << '\n';
+    else
+        fmt::print("node {}: {} triangles, at most {:.3g} m off the ground\n", options.node,
+                   geometry->triangles.size(), *error_m);
+    return {};
+}
+
+}  // namespace
+
+Result<void> make_chunks(const lod::Scene& scene, const lod::Terrain& terrain, const Common& common) {
+    const StopOnSignal signals;
+    const auto bar = progress_bar(common, "making the quadtree");
+    return lod::make_chunk_file(scene, terrain, [&](double done) {
+        bar(done);
+        return !signals.stop_asked();
+    });
+}
+
+void add_chunks(CLI::App& program, Action& action) {
+    auto options = std::make_shared<ChunksOptions>();
+    CLI::App* command = program.add_subcommand("chunks", "The nodes that `--lod lstr` draws: chunks.bin");
+    command->require_subcommand(1);
+    const auto add = [&](const char* name, const char* what, bool names_node, auto act) {
+        CLI::App* added = command->add_subcommand(name, what);
+        added->add_option("SCENE", options->scene, "The scene's folder")->required();
+        if (names_node) {
+            added->add_option("NODE", options->node, "LEVEL/COLUMN/ROW, from 1/0/0 on")->required();
+            added->add_option("MESH", options->mesh, "OBJ file: v COLUMN ROW H, f A B C")->required();
+        }
+        add_common(*added, *options);
+        added->callback([options, &action, act] { action = [options, act] { return act(*options); }; });
+        return added;
+    };
+    add("make", "Make the file, or go on with what was stopped", false, make)
+        ->footer("Example: relevo chunks make fuji.relevo");
+    add("extract", "Write a node's mesh", true, extract)
+        ->footer("Example: relevo chunks extract fuji.relevo 2/3/1 node.obj");
+    add("replace", "Put another mesh in a node's place; its sides must stay the same", true, replace)
+        ->footer("Example: relevo chunks replace fuji.relevo 2/3/1 node.obj");
+}
+
+}  // namespace relevo::app
