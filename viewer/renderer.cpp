@@ -18,7 +18,6 @@ namespace {
 
 constexpr GLuint kFrameBinding = 0;
 constexpr GLuint kRampUnit = 2;  // the others are GroundTextures'
-constexpr double kLowSun = 0.22;  // sine of its elevation, below which light.glsl has dusk or night
 
 /// Fills a buffer that is made anew every frame. Fresh storage of the same size lets the driver keep the old
 /// one for a frame that is still being drawn.
@@ -27,6 +26,11 @@ void stream(const GlBuffer& buffer, std::size_t& capacity, const void* data, std
     if (capacity == 0) return;
     glNamedBufferData(buffer.name(), static_cast<GLsizeiptr>(capacity), nullptr, GL_STREAM_DRAW);
     glNamedBufferSubData(buffer.name(), 0, static_cast<GLsizeiptr>(bytes), data);
+}
+
+/// Has shaders/light.glsl dusk or night there?
+bool is_low(const SunSetting& sun, const geo::Geodetic& eye) {
+    return std::sin(sun_at(sun, {eye.lat, eye.lon}).elevation.radians()) < 0.22;
 }
 
 }  // namespace
@@ -90,15 +94,13 @@ void Renderer::make_vertex_array() {
     glVertexArrayAttribBinding(array, 1, 0);
 }
 
-Result<GlName> Renderer::sky_program(const lod::View& view, const SunSetting& sun) {
-    const geo::Geodetic& eye = view.camera().eye;
-    const bool low = std::sin(sun_at(sun, {eye.lat, eye.lon}).elevation.radians()) < kLowSun;
-    GlProgram& program = sky_programs_[low ? 1 : 0];
+Result<GlName> Renderer::sky_program(bool low_sun) {
+    GlProgram& program = sky_programs_[low_sun ? 1 : 0];
     if (!program) {
         const std::string common =
             std::string(shader_text("frame.glsl")) + std::string(shader_text("light.glsl"));
         auto built = build_program({.name = "sky",
-                                    .defines = low ? "#define LOW_SUN\n" : "",
+                                    .defines = low_sun ? "#define LOW_SUN\n" : "",
                                     .common = common,
                                     .vertex = shader_text("sky.vert"),
                                     .geometry = {},
@@ -236,7 +238,8 @@ Result<DrawFigures> Renderer::draw(const lod::View& view, const DrawSettings& se
     const bool sky = !settings.background;
     const auto program = terrain_program(variant(settings));
     if (!program) return program.error();
-    const auto sky_program_name = sky ? sky_program(view, settings.sun) : GlName{0};
+    const bool low_sun = is_low(settings.sun, view.camera().eye);
+    const auto sky_program_name = sky ? sky_program(low_sun) : GlName{0};
     if (!sky_program_name) return sky_program_name.error();
     prepare(view, settings, {region.x, region.y, target.width(), target.height()});
 
@@ -248,7 +251,7 @@ Result<DrawFigures> Renderer::draw(const lod::View& view, const DrawSettings& se
         glBeginQuery(GL_ANY_SAMPLES_PASSED, seen_.name());
     }
     const auto start = std::chrono::steady_clock::now();
-    const auto ocean = ocean_->draw(view, settings.ocean, {.sun = settings.sun, .sky = sky});
+    const auto ocean = ocean_->draw(view, settings.ocean, {.sun = settings.sun, .sky = sky, .low_sun = low_sun});
     if (!ocean) return ocean.error();
     figures.ocean = *ocean;
     if (measured && ocean->draw_calls > 0) {

@@ -88,7 +88,7 @@ class Renderer {
     void prepare(const lod::View& view, const DrawSettings& settings, const PicturePart& part);
     void draw_terrain(GlName program, Layer layer);
     Result<GlName> terrain_program(const Variant& variant);
-    Result<GlName> sky_program(const lod::View& view, const SunSetting& sun);
+    Result<GlName> sky_program(bool low_sun);
     Result<void> make_ramps();
     /// The ocean's, where the eye is above the ground.
     Result<int> fill(const lod::View& view, const DrawSettings& settings);

@@ -23,8 +23,8 @@ struct Sample {
 Sample grass(const PeriodicNoise& noise, double x, double y) {
     const double bent = 0.02 * noise.octaves(x + 0.3, y, 6, 3);
     const double tufts = noise.octaves(x, y, 5, 3, 0.7);
-    const double leaves = noise.octaves(x + bent, y - bent, 40, 3, 0.8);
-    return {0.6 * tufts + 0.4 * leaves, 0.5 * tufts + 0.9 * leaves, noise.octaves(y + 0.11, x, 4, 4, 0.7)};
+    const double leaves = std::abs(noise.octaves(x + bent, y - bent, 36, 3, 0.8));
+    return {0.6 * tufts + 0.5 * leaves, 0.45 * tufts + 1.6 * leaves, noise.octaves(y + 0.11, x, 4, 4, 0.7)};
 }
 
 /// Ridges on ridges, with cracks that stay dark.

@@ -20,6 +20,11 @@ vec2 slopes_of(vec4 texel, vec4 tile, float tile_m) {
     return ((texel.zw * 2.0 - 1.0) * mat2(tile.z, -tile.w, tile.w, tile.z)) * tile_m;
 }
 
+// There are no stones of ten metres in gravel: in large tiles it is as uneven as any ground.
+vec2 layers_of(vec2 layers, int rung) {
+    return rung > 1 ? mix(layers, vec2(4.0), equal(layers, vec2(2.0))) : layers;
+}
+
 struct CoverLook {
     vec3 colour;
     vec2 slope;  // of what the data does not tell
@@ -54,10 +59,12 @@ CoverLook cover_at(vec2 at, float pixel, float slope, float H, float sea, float 
     float coarse_lod = fine_lod - 2.585;
     vec2 fine_at = in_tile(fine_tile, at);
     vec2 coarse_at = in_tile(coarse_tile, at);
-    vec4 a_fine = textureLod(materials, vec3(fine_at, layers.x), fine_lod);
-    vec4 a_coarse = textureLod(materials, vec3(coarse_at, layers.x), coarse_lod);
-    vec4 b_fine = textureLod(materials, vec3(fine_at, layers.y), fine_lod);
-    vec4 b_coarse = textureLod(materials, vec3(coarse_at, layers.y), coarse_lod);
+    vec2 fine_layers = layers_of(layers, rung);
+    vec2 coarse_layers = layers_of(layers, rung + 1);
+    vec4 a_fine = textureLod(materials, vec3(fine_at, fine_layers.x), fine_lod);
+    vec4 a_coarse = textureLod(materials, vec3(coarse_at, coarse_layers.x), coarse_lod);
+    vec4 b_fine = textureLod(materials, vec3(fine_at, fine_layers.y), fine_lod);
+    vec4 b_coarse = textureLod(materials, vec3(coarse_at, coarse_layers.y), coarse_lod);
     vec2 a = (a_fine.xy - 0.5) * shares.x + (a_coarse.xy - 0.5) * shares.y;
     vec2 b = (b_fine.xy - 0.5) * shares.x + (b_coarse.xy - 0.5) * shares.y;
     // Where two materials meet, what is light, for it lies on top, is seen more of.
@@ -69,11 +76,11 @@ CoverLook cover_at(vec2 at, float pixel, float slope, float H, float sea, float 
     mat4x3 darker = mat4x3(mix(vec3(0.175, 0.225, 0.105), vec3(0.390, 0.350, 0.205), dry),
                            vec3(0.330, 0.305, 0.280),
                            mix(vec3(0.375, 0.350, 0.315), vec3(0.690, 0.610, 0.460), sandy),
-                           vec3(0.800, 0.845, 0.905));
+                           vec3(0.760, 0.810, 0.880));
     mat4x3 lighter = mat4x3(mix(vec3(0.335, 0.370, 0.175), vec3(0.560, 0.500, 0.310), dry),
                             vec3(0.500, 0.465, 0.425),
                             mix(vec3(0.530, 0.500, 0.455), vec3(0.800, 0.730, 0.580), sandy),
-                            vec3(0.930, 0.945, 0.970));
+                            vec3(0.900, 0.920, 0.950));
     const vec4 contrasts = vec4(1.10, 0.95, 0.85, 0.18);
     const vec4 steepness = vec4(0.45, 0.75, 0.60, 0.22);
     vec3 colour_a = mix(darker * first, lighter * first, clamp(0.5 + 1.5 * a.y + 0.7 * macro.y, 0.0, 1.0));
@@ -89,9 +96,16 @@ CoverLook cover_at(vec2 at, float pixel, float slope, float H, float sea, float 
     float near = 1.0 - smoothstep(0.003, 0.016, pixel);
     vec4 grain = textureLod(materials, vec3(in_tile(cover.grain, at), 4.0), rough_log2(pixel * (256.0 / kGrainTile)));
     float roughness = near * (1.0 - 0.7 * dot(mix(first, second, part), vec4(0.0, 0.0, 0.0, 1.0)));
-    colour *= 1.0 + 0.7 * roughness * (grain.x - 0.5);
-    slopes += slopes_of(grain, cover.grain, kGrainTile) * (0.4 * roughness);
+    colour *= 1.0 + 0.9 * roughness * (grain.x - 0.5);
+    slopes += slopes_of(grain, cover.grain, kGrainTile) * (0.55 * roughness);
     return CoverLook(colour, slopes);
+}
+
+// What is lighter than a picture can be still shows its shape.
+vec3 softened(vec3 colour) {
+    const float knee = 0.6;
+    vec3 above = max(colour - knee, 0.0) / (1.0 - knee);
+    return min(colour, vec3(knee)) + (1.0 - knee) * (1.0 - exp(-above));
 }
 
 // Water where no sea is drawn: what comes out of it, and some of the sky on it.

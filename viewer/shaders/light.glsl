@@ -1,6 +1,6 @@
 // Light of the sky and of the sun by the sine of the sun's elevation. From 0.22 up (13 degrees) it is day: nothing
 // changes with the sun's height but how much ground it lights.
-const vec3 kNightAir = vec3(0.050, 0.062, 0.098);
+const vec3 kNightAir = vec3(0.072, 0.090, 0.138);
 const vec3 kNightZenith = vec3(0.014, 0.020, 0.046);
 
 float daylight(float s) { return smoothstep(-0.10, 0.15, s); }
@@ -31,11 +31,11 @@ vec3 zenith_colour(float s) {
 
 // What ground gets of the sun where it faces it, of the whole sky, and of a moon opposite to the sun by night.
 vec3 sunlight(float s) {
-    vec3 colour = mix(vec3(1.05, 0.50, 0.22), vec3(1.00, 0.96, 0.88), smoothstep(-0.02, 0.34, s));
-    return colour * (0.95 * smoothstep(-0.03, 0.10, s));
+    vec3 colour = mix(vec3(1.45, 0.78, 0.38), vec3(1.00, 0.96, 0.88), smoothstep(-0.02, 0.34, s));
+    return colour * (0.95 * smoothstep(-0.03, 0.06, s));
 }
 vec3 skylight(float s) {
-    vec3 colour = mix(vec3(0.050, 0.062, 0.100), vec3(0.35, 0.39, 0.45), daylight(s));
-    return mix(colour, vec3(0.25, 0.26, 0.36) * smoothstep(-0.26, 0.10, s), 0.6 * dusk(s));
+    vec3 colour = mix(vec3(0.095, 0.115, 0.175), vec3(0.35, 0.39, 0.45), daylight(s));
+    return mix(colour, vec3(0.50, 0.49, 0.58) * mix(0.3, 1.0, smoothstep(-0.24, 0.08, s)), 0.8 * dusk(s));
 }
-vec3 moonlight(float s) { return vec3(0.155, 0.185, 0.265) * (1.0 - smoothstep(-0.18, -0.02, s)); }
+vec3 moonlight(float s) { return vec3(0.36, 0.43, 0.60) * (1.0 - smoothstep(-0.18, -0.02, s)); }

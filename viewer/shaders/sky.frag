@@ -29,8 +29,8 @@ vec3 stars(vec3 direction) {
     vec3 place = normalize((cell + 0.25 + 0.5 * chance) / cells);
     float wide = 0.75 * max(length(dFdx(direction)), length(dFdy(direction)));
     float away = distance(direction, place) / max(wide, 1e-6);
-    float bright = chance.x * chance.y * chance.z;
-    return mix(vec3(0.75, 0.85, 1.0), vec3(1.0, 0.9, 0.75), chance.y) * (2.2 * bright * exp(-away * away));
+    float bright = chance.x * chance.z;
+    return mix(vec3(0.75, 0.85, 1.0), vec3(1.0, 0.9, 0.75), chance.y) * (1.1 * bright * bright * bright * exp(-away * away));
 }
 #endif
 

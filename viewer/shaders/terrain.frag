@@ -109,7 +109,7 @@ void main() {
     vec2 along = dFdx(surface.cover.xy);
     vec2 across = dFdy(surface.cover.xy);
     vec2 pixel = vec2(dot(along, along), dot(across, across));
-    float size = exp2(0.32 * rough_log2(max(pixel.x, pixel.y)) + 0.18 * rough_log2(max(min(pixel.x, pixel.y), 1e-9)));
+    float size = exp2(0.29 * rough_log2(max(pixel.x, pixel.y)) + 0.21 * rough_log2(max(min(pixel.x, pixel.y), 1e-9)));
     float H = here.z * SCENE_HALF + SCENE_MIDDLE;
 #ifdef SHORE
     float sea = share;
@@ -124,7 +124,7 @@ void main() {
     vec3 moon = normalize(vec3(-sun.xy, 0.9));
     vec3 light = sunlight(sun.z) * sunny + skylight(sun.z) * (0.62 + 0.38 * bumpy.z) +
                  moonlight(sun.z) * max(dot(bumpy, moon), 0.0);
-    vec3 shown = ground.colour * light;
+    vec3 shown = softened(ground.colour * light);
 #ifdef TINTED_SEA
     shown = mix(shown, water_colour(H, sun.z), water);
 #endif
