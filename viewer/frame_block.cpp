@@ -86,8 +86,8 @@ FrameBlock frame_block(const lod::View& view, const lod::Terrain& terrain, const
     const double daylight = std::clamp((to_sun.z + 0.10) / 0.25, 0.0, 1.0);
     const glm::dvec3 to_sun_ecef = to_sun.x * local.east() + to_sun.y * local.north() + to_sun.z * local.up();
     const bool fixed = sun.kind == SunSetting::Kind::time;
-    block.sun = vec4(fixed ? to_sun_ecef : lamp_in_grid(here, grid),
-                     daylight * daylight * (3 - 2 * daylight));
+    block.sun =
+        vec4(fixed ? to_sun_ecef : lamp_in_grid(here, grid), daylight * daylight * (3 - 2 * daylight));
     block.sun_at_eye = vec4(to_sun_ecef, to_sun.z);
     block.surface = glm::dvec4(exaggeration, terrain.levels(), 1 / kVisibilityM,
                                may_be_below(camera.eye, terrain, exaggeration) ? 1 : 0);

@@ -70,7 +70,7 @@ std::string_view to_string(Layer layer) {
 }
 
 Result<Layer> parse_layer(std::string_view text) {
-    for (const Layer layer : 
+    for (const Layer layer :
          {Layer::hypsometric, Layer::hillshade, Layer::slope, Layer::lod, Layer::terrain}) {
         if (text == to_string(layer)) return layer;
     }

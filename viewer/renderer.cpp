@@ -180,7 +180,7 @@ void Renderer::prepare(const lod::View& view, const DrawSettings& settings, cons
     ground_->update(Sight(view, part), settings.exaggeration);
     if (settings.layer == Layer::terrain) {
         if (!cover_) cover_.emplace();
-        cover_->update(*terrain_, {view.camera().eye.lat, view.camera().eye.lon});
+        cover_->update(terrain_->frame(), {view.camera().eye.lat, view.camera().eye.lon});
     }
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);  // the ground is also seen from below
@@ -251,7 +251,8 @@ Result<DrawFigures> Renderer::draw(const lod::View& view, const DrawSettings& se
         glBeginQuery(GL_ANY_SAMPLES_PASSED, seen_.name());
     }
     const auto start = std::chrono::steady_clock::now();
-    const auto ocean = ocean_->draw(view, settings.ocean, {.sun = settings.sun, .sky = sky, .low_sun = low_sun});
+    const auto ocean =
+        ocean_->draw(view, settings.ocean, {.sun = settings.sun, .sky = sky, .low_sun = low_sun});
     if (!ocean) return ocean.error();
     figures.ocean = *ocean;
     if (measured && ocean->draw_calls > 0) {

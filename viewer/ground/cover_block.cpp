@@ -12,7 +12,8 @@ namespace {
 /// Turned tiles of different sizes do not lie on each other.
 CoverBlock::Tile tile_at(const glm::dvec2& place_m, double tile_m, double turned) {
     const glm::dvec2 axis(std::cos(turned), std::sin(turned));
-    const glm::dvec2 in_tile(axis.x * place_m.x + axis.y * place_m.y, axis.x * place_m.y - axis.y * place_m.x);
+    const glm::dvec2 in_tile(axis.x * place_m.x + axis.y * place_m.y,
+                             axis.x * place_m.y - axis.y * place_m.x);
     return glm::dvec4(glm::fract(in_tile / tile_m), axis / tile_m);
 }
 
@@ -25,8 +26,7 @@ double bump(double tile_m, double post_m) {
 
 }  // namespace
 
-CoverBlock cover_block(const lod::Terrain& terrain, geo::LatLon eye) {
-    const geo::GridFrame& grid = terrain.frame();
+CoverBlock cover_block(const geo::GridFrame& grid, geo::LatLon eye) {
     const auto metres = grid.spacing({0.5 * (grid.columns - 1), 0.5 * (grid.rows - 1)});
     const geo::GridPosition at = grid.grid_position(eye);
     // No farther than the data: all that is drawn is there.
@@ -40,8 +40,7 @@ CoverBlock cover_block(const lod::Terrain& terrain, geo::LatLon eye) {
         const double tile_m = CoverBlock::tile_m(rung);
         const auto i = static_cast<std::size_t>(rung);
         block.rungs[i] = tile_at(place, tile_m, 2.4 * rung);
-        block.bumps[i] =
-            glm::dvec4(bump(tile_m, std::min(metres.column_m, metres.row_m)), tile_m, 0, 0);
+        block.bumps[i] = glm::dvec4(bump(tile_m, std::min(metres.column_m, metres.row_m)), tile_m, 0, 0);
     }
     block.grain = tile_at(place, CoverBlock::kGrainM, 1.0);
     block.macro = tile_at(place, CoverBlock::kMacroM, 0.5);

@@ -5,7 +5,7 @@
 
 #include <glm/vec4.hpp>
 
-#include "lod/terrain.hpp"
+#include "geo/frame.hpp"
 
 namespace relevo::viewer {
 
@@ -22,13 +22,13 @@ struct CoverBlock {
     static constexpr double kFinestM = 1.2;  ///< the lowest rung's tile
     static double tile_m(int rung) { return kFinestM * std::pow(kSteps, rung); }
 
-    static constexpr double kGrainM = 0.3;    ///< the tile of the detail near the eye
-    static constexpr double kMacroM = 2900;   ///< of what makes materials vary over a landscape
+    static constexpr double kGrainM = 0.3;   ///< the tile of the detail near the eye
+    static constexpr double kMacroM = 2900;  ///< of what makes materials vary over a landscape
 
     /// A tile: the anchor's place in it, 0 to 1; its axis over its length, along the row and up the column.
     using Tile = glm::vec4;
 
-    glm::vec4 anchor;                   ///< its column and row; metres a column and a row
+    glm::vec4 anchor;  ///< its column and row; metres a column and a row
     std::array<Tile, kRungs> rungs;
     std::array<glm::vec4, kRungs> bumps;  ///< how much of a rung's slopes is shown; the tile's length
     Tile grain;
@@ -37,6 +37,6 @@ struct CoverBlock {
 
 /// Metres a post are those in the middle of the data: in a scene of many degrees of latitude tiles are wider
 /// towards the equator.
-CoverBlock cover_block(const lod::Terrain& terrain, geo::LatLon eye);
+CoverBlock cover_block(const geo::GridFrame& grid, geo::LatLon eye);
 
 }  // namespace relevo::viewer

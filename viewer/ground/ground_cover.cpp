@@ -40,8 +40,8 @@ GroundCover::GroundCover() {
     glNamedBufferStorage(block_.name(), sizeof(CoverBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
 }
 
-void GroundCover::update(const lod::Terrain& terrain, geo::LatLon eye) {
-    const CoverBlock block = cover_block(terrain, eye);
+void GroundCover::update(const geo::GridFrame& grid, geo::LatLon eye) {
+    const CoverBlock block = cover_block(grid, eye);
     glNamedBufferSubData(block_.name(), 0, sizeof(block), &block);
 }
 

@@ -1,18 +1,19 @@
 #pragma once
 
-#include "lod/terrain.hpp"
+#include "geo/frame.hpp"
 #include "viewer/gl_object.hpp"
 
 namespace relevo::viewer {
 
-/// What the layer `terrain` is drawn with besides the ground's pages: the materials' tiles, and where they lie.
+/// What the layer `terrain` is drawn with besides the ground's pages: the materials' tiles, and where they
+/// lie.
 class GroundCover {
   public:
     /// Makes the tiles, on all cores. \pre a context is current
     GroundCover();
 
     /// Lays the tiles for an eye.
-    void update(const lod::Terrain& terrain, geo::LatLon eye);
+    void update(const geo::GridFrame& grid, geo::LatLon eye);
 
     /// Binds all to the units that the shader says.
     void bind() const;

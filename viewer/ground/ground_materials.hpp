@@ -7,8 +7,8 @@
 
 namespace relevo::viewer {
 
-/// What ground is made of in pictures. `grain` is no ground but the detail that is laid over each of them near
-/// the eye.
+/// What ground is made of in pictures. `grain` is no ground but the detail that is laid over each of them
+/// near the eye.
 enum class Material { grass, rock, gravel, snow, grain };
 inline constexpr int kMaterials = 5;
 
@@ -22,7 +22,7 @@ using MaterialTexel = std::array<std::uint8_t, 4>;
 inline constexpr int kMaterialSide = 256;
 
 /// A material's tile, row by row upwards. It repeats in both directions without a seam, and is the
-/// same bytes for the same seed everywhere. Takes about 60 ms.
+/// same bytes for the same seed.
 std::vector<MaterialTexel> material_tile(Material material, std::uint64_t seed = 1);
 
 }  // namespace relevo::viewer

@@ -1,7 +1,6 @@
 #include "viewer/ground/periodic_noise.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace relevo::viewer {
 
@@ -38,9 +37,8 @@ double PeriodicNoise::gradient(double x, double y, int cells) const {
     const double u = x * cells - column;
     const double v = y * cells - row;
     const auto corner = [&](int right, int down) {
-        const double angle =
-            2 * std::numbers::pi * at(static_cast<int>(column) + right, static_cast<int>(row) + down, cells)[0];
-        return std::cos(angle) * (u - right) + std::sin(angle) * (v - down);
+        const auto slope = at(static_cast<int>(column) + right, static_cast<int>(row) + down, cells);
+        return (2 * slope[0] - 1) * (u - right) + (2 * slope[1] - 1) * (v - down);
     };
     const double upper = std::lerp(corner(0, 0), corner(1, 0), smooth(u));
     const double lower = std::lerp(corner(0, 1), corner(1, 1), smooth(u));
@@ -50,7 +48,8 @@ double PeriodicNoise::gradient(double x, double y, int cells) const {
 double PeriodicNoise::octaves(double x, double y, int cells, int count, double falling) const {
     double sum = 0;
     double amplitude = 1;
-    for (int i = 0; i < count; ++i, cells *= 2, amplitude *= falling) sum += amplitude * gradient(x, y, cells);
+    for (int i = 0; i < count; ++i, cells *= 2, amplitude *= falling)
+        sum += amplitude * gradient(x, y, cells);
     return sum;
 }
 

@@ -10,7 +10,7 @@ class PeriodicNoise {
   public:
     explicit PeriodicNoise(std::uint64_t seed) : seed_(seed) {}
 
-    /// K. Perlin's gradient noise (SIGGRAPH 2002) with so many cells a side: about -0.7 to 0.7, mean 0.
+    /// Gradient noise (K. Perlin, SIGGRAPH 2002) with so many cells a side: -1 to 1, mean 0.
     double gradient(double x, double y, int cells) const;
 
     /// Its octaves, each of twice as many cells and `falling` the amplitude of the one before.

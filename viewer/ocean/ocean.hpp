@@ -45,7 +45,7 @@ class Ocean {
 
     struct Look {
         SunSetting sun;
-        bool sky = true;  ///< haze in the distance
+        bool sky = true;       ///< haze in the distance
         bool low_sun = false;  ///< it mirrors a sky of dusk or night
         /// Instead of colours: place in the chart from the nadir, height of the waves, 2.
         bool probe = false;

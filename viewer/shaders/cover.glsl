@@ -6,7 +6,7 @@ vec4 cover_weights(float slope, float H, float sea, float snow_line) {
     float snow = smoothstep(-250.0, 250.0, H - snow_line) * (1.0 - smoothstep(42.0, 58.0, slope));
     float rock = smoothstep(26.0, 38.0, slope);
     float scree = smoothstep(0.62, 0.90, H / max(snow_line, 1.0));
-    float beach = smoothstep(0.02, 0.30, sea) * (1.0 - smoothstep(4.0, 12.0, H));
+    float beach = smoothstep(0.0, 0.15, sea) * (1.0 - smoothstep(4.0, 12.0, H));
     float bare = max(scree, beach);
     return vec4(vec3((1.0 - rock) * (1.0 - bare), rock, (1.0 - rock) * bare) * (1.0 - snow), snow);
 }

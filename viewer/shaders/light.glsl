@@ -36,6 +36,6 @@ vec3 sunlight(float s) {
 }
 vec3 skylight(float s) {
     vec3 colour = mix(vec3(0.095, 0.115, 0.175), vec3(0.35, 0.39, 0.45), daylight(s));
-    return mix(colour, vec3(0.50, 0.49, 0.58) * mix(0.3, 1.0, smoothstep(-0.24, 0.08, s)), 0.8 * dusk(s));
+    return mix(colour, vec3(0.60, 0.58, 0.66) * mix(0.3, 1.0, smoothstep(-0.24, 0.08, s)), 0.8 * dusk(s));
 }
-vec3 moonlight(float s) { return vec3(0.36, 0.43, 0.60) * (1.0 - smoothstep(-0.18, -0.02, s)); }
+vec3 moonlight(float s) { return vec3(0.25, 0.30, 0.43) * (1.0 - smoothstep(-0.18, -0.02, s)); }
