@@ -19,12 +19,13 @@ struct Sample {
     double colour;
 };
 
-/// Tufts, and leaves between them; light on top and dark in the gaps.
+/// Tufts, and leaves between them; light on top and dark in the gaps. Nothing as large as the tile, here and
+/// below: it would be seen to repeat.
 Sample grass(const PeriodicNoise& noise, double x, double y) {
     const double bent = 0.02 * noise.octaves(x + 0.3, y, 6, 3);
-    const double tufts = noise.octaves(x, y, 5, 3, 0.7);
+    const double tufts = noise.octaves(x, y, 9, 3, 0.8);
     const double leaves = std::abs(noise.octaves(x + bent, y - bent, 36, 3, 0.8));
-    return {0.6 * tufts + 0.5 * leaves, 0.45 * tufts + 1.6 * leaves, noise.octaves(y + 0.11, x, 4, 4, 0.7)};
+    return {0.6 * tufts + 0.5 * leaves, 0.4 * tufts + 1.6 * leaves, noise.octaves(y + 0.11, x, 7, 4, 0.8)};
 }
 
 /// Ridges on ridges, with cracks that stay dark.
@@ -39,7 +40,7 @@ Sample rock(const PeriodicNoise& noise, double x, double y) {
     const double crack = std::min((block.second - block.nearest) / 0.12, 1.0);
     const double grains = noise.octaves(x, y, 48, 2);
     return {ridges + 0.12 * crack + 0.03 * grains + 0.1 * block.number,
-            ridges + 0.25 * crack + 0.3 * grains + 0.25 * block.number,
+            ridges + 0.25 * crack + 0.3 * grains + 0.12 * block.number,
             noise.octaves(y, x, 3, 4, 0.6) + 0.3 * block.number};
 }
 
@@ -65,7 +66,7 @@ Sample gravel(const PeriodicNoise& noise, double x, double y) {
 /// Drifts that the wind has drawn out, and a fine crust.
 Sample snow(const PeriodicNoise& noise, double x, double y) {
     const double bent = 0.05 * noise.octaves(x, y, 3, 2);
-    const double drifts = noise.octaves(x + bent, y, 4, 3, 0.55);
+    const double drifts = noise.octaves(x + bent, y, 6, 3, 0.6);
     const double crust = noise.gradient(x, y + bent, 32) + 0.5 * noise.gradient(x, y, 64);
     return {drifts + 0.05 * crust, 0.7 * drifts + 0.25 * crust, noise.octaves(y, x, 4, 3)};
 }
@@ -73,7 +74,7 @@ Sample snow(const PeriodicNoise& noise, double x, double y) {
 /// Equally much of every size, for it belongs to no material.
 Sample grain(const PeriodicNoise& noise, double x, double y) {
     const auto clod = noise.cellular(x, y, 14);
-    const double rough = noise.octaves(x, y, 8, 5, 0.75);
+    const double rough = noise.octaves(x, y, 10, 4, 0.8);
     return {rough - 0.4 * clod.nearest, rough + 0.3 * (clod.number - clod.nearest),
             noise.octaves(y + 0.21, x, 5, 4, 0.7)};
 }

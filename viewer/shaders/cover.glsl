@@ -49,9 +49,9 @@ CoverLook cover_at(vec2 at, float pixel, float slope, float H, float sea, float 
     vec2 layers = vec2(dot(first.yzw, vec3(1.0, 2.0, 3.0)), dot(second.yzw, vec3(1.0, 2.0, 3.0)));
 
     // The two rungs whose texels are about a pixel. Their variances add, for they have nothing to do with each other.
-    float height = clamp(rough_log2(pixel * (110.0 / kFinestTile)) / 2.585, 0.0, float(kRungs) - 1.001);
+    float height = clamp(rough_log2(pixel * (220.0 / kFinestTile)) / 2.585, 0.0, float(kRungs) - 1.001);
     int rung = int(height);
-    float coarser = smoothstep(0.15, 1.0, height - float(rung));
+    float coarser = smoothstep(0.0, 0.85, height - float(rung));
     vec2 shares = vec2(1.0 - coarser, coarser) * inversesqrt(1.0 - 2.0 * coarser * (1.0 - coarser));
     vec4 fine_tile = cover.rungs[rung];
     vec4 coarse_tile = cover.rungs[rung + 1];
