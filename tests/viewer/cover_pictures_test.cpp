@@ -168,7 +168,7 @@ TEST(CoverPictures, TheSkyIsWarmTowardsALowSunAndAsEverByDay) {
     const auto frame = geographic_frame(65, 65);
     Studio studio(make_terrain(frame, make_heights(frame, [](int, int) { return 100.0; })));
     auto camera = above_looking_down(studio.terrain(), 32, 32, 500);
-    camera.pitch.value = 12;
+    camera.pitch.value = 3;
     const auto sky = [&](const char* sun, Layer layer) {
         return mean(studio.draw(camera, {.layer = layer, .sun = *viewer::parse_sun(sun)}), 60, 90);
     };

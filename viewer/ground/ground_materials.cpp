@@ -40,7 +40,7 @@ Sample rock(const PeriodicNoise& noise, double x, double y) {
     const double crack = std::min((block.second - block.nearest) / 0.12, 1.0);
     const double grains = noise.octaves(x, y, 48, 2);
     return {ridges + 0.12 * crack + 0.03 * grains + 0.1 * block.number,
-            ridges + 0.25 * crack + 0.3 * grains + 0.12 * block.number,
+            ridges + 0.12 * crack + 0.3 * grains + 0.12 * block.number,
             noise.octaves(y, x, 3, 4, 0.6) + 0.3 * block.number};
 }
 

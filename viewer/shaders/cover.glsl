@@ -37,7 +37,8 @@ CoverLook cover_at(vec2 at, float pixel, float slope, float H, float sea, float 
     vec2 macro = textureLod(materials, vec3(in_tile(cover.macro, at), 4.0), macro_lod).rg - 0.5;
     vec4 weights = cover_weights(slope + 14.0 * macro.x, H + 500.0 * macro.y, sea, snow_line);
 
-    // The two materials that there is most of. Less what there is of the third: so none of them appears at once.
+    // The two materials that there is most of are shown with their texture. Less what there is of the third: so none of
+    // them appears at once.
     weights += vec4(0.0, 1e-5, 2e-5, 3e-5);  // no two are equal
     float most = largest(weights);
     vec4 first = vec4(equal(weights, vec4(most)));
@@ -45,7 +46,8 @@ CoverLook cover_at(vec2 at, float pixel, float slope, float H, float sea, float 
     float next = largest(others);
     vec4 second = vec4(equal(others, vec4(next)));
     float third = largest(others * (1.0 - second));
-    float part = (next - third) / (most + next - 2.0 * third);
+    float of_both = most + next - 2.0 * third;
+    float part = (next - third) / of_both;
     vec2 layers = vec2(dot(first.yzw, vec3(1.0, 2.0, 3.0)), dot(second.yzw, vec3(1.0, 2.0, 3.0)));
 
     // The two rungs whose texels are about a pixel. Their variances add, for they have nothing to do with each other.
@@ -67,8 +69,11 @@ CoverLook cover_at(vec2 at, float pixel, float slope, float H, float sea, float 
     vec4 b_coarse = textureLod(materials, vec3(coarse_at, coarse_layers.y), coarse_lod);
     vec2 a = (a_fine.xy - 0.5) * shares.x + (a_coarse.xy - 0.5) * shares.y;
     vec2 b = (b_fine.xy - 0.5) * shares.x + (b_coarse.xy - 0.5) * shares.y;
-    // Where two materials meet, what is light, for it lies on top, is seen more of.
-    part = clamp(part + 6.0 * part * (1.0 - part) * (b.x - a.x), 0.0, 1.0);
+    // Where two materials meet, what is light, for it lies on top, is seen more of. All of them count for the colour:
+    // where there is as much of three, the choice of two turns around a point.
+    float moved = clamp(part + 6.0 * part * (1.0 - part) * (b.x - a.x), 0.0, 1.0) - part;
+    part += moved;
+    vec4 seen = weights + (second - first) * (moved * of_both);
 
     // Each material's two colours. Grass dries with height and, here and there, for other reasons; shores are of sand.
     float dry = clamp(1.1 * H / max(snow_line, 1.0) - 0.05 + 0.9 * macro.x, 0.0, 1.0);
@@ -83,9 +88,9 @@ CoverLook cover_at(vec2 at, float pixel, float slope, float H, float sea, float 
                             vec3(0.900, 0.920, 0.950));
     const vec4 contrasts = vec4(1.10, 0.95, 0.85, 0.18);
     const vec4 steepness = vec4(0.45, 0.75, 0.60, 0.22);
-    vec3 colour_a = mix(darker * first, lighter * first, clamp(0.5 + 1.5 * a.y + 0.7 * macro.y, 0.0, 1.0));
-    vec3 colour_b = mix(darker * second, lighter * second, clamp(0.5 + 1.5 * b.y + 0.7 * macro.y, 0.0, 1.0));
-    vec3 colour = mix(colour_a * (1.0 + dot(contrasts, first) * a.x), colour_b * (1.0 + dot(contrasts, second) * b.x), part);
+    float mixed = clamp(0.5 + 1.5 * mix(a.y, b.y, part) + 0.7 * macro.y, 0.0, 1.0);
+    vec3 colour = mix(darker * seen, lighter * seen, mixed);
+    colour *= 1.0 + mix(dot(contrasts, first) * a.x, dot(contrasts, second) * b.x, part);
 
     vec2 bumps = vec2(cover.bumps[rung].x, cover.bumps[rung + 1].x) * shares;
     vec2 steep = vec2(dot(steepness, first) * (1.0 - part), dot(steepness, second) * part);
@@ -95,7 +100,7 @@ CoverLook cover_at(vec2 at, float pixel, float slope, float H, float sea, float 
     // The detail, where a pixel is smaller than what the lowest rung shows.
     float near = 1.0 - smoothstep(0.003, 0.016, pixel);
     vec4 grain = textureLod(materials, vec3(in_tile(cover.grain, at), 4.0), rough_log2(pixel * (256.0 / kGrainTile)));
-    float roughness = near * (1.0 - 0.7 * dot(mix(first, second, part), vec4(0.0, 0.0, 0.0, 1.0)));
+    float roughness = near * (1.0 - 0.7 * seen.w);
     colour *= 1.0 + 0.9 * roughness * (grain.x - 0.5);
     slopes += slopes_of(grain, cover.grain, kGrainTile) * (0.55 * roughness);
     return CoverLook(colour, slopes);

@@ -19,14 +19,14 @@ float toward_sun(vec3 direction) {
 // The sky at the horizon, which is also what haze looks like.
 vec3 air_colour(float s, float toward) {
     vec3 plain = mix(kNightAir, kHazeColour, daylight(s));
-    vec3 glow = mix(vec3(0.47, 0.43, 0.53), vec3(0.98, 0.62, 0.36), toward * toward);
-    glow *= mix(0.16, 1.0, smoothstep(-0.22, 0.06, s));
+    vec3 glow = mix(vec3(0.45, 0.44, 0.57), vec3(0.98, 0.62, 0.36), toward * toward);
+    glow *= mix(0.24, 1.0, smoothstep(-0.24, 0.04, s));
     return mix(plain, glow, 0.9 * dusk(s));
 }
 
 vec3 zenith_colour(float s) {
     vec3 plain = mix(kNightZenith, kZenithColour, daylight(s));
-    return mix(plain, vec3(0.21, 0.29, 0.48) * smoothstep(-0.26, 0.08, s), 0.7 * dusk(s));
+    return mix(plain, vec3(0.21, 0.29, 0.50) * smoothstep(-0.28, 0.02, s), 0.7 * dusk(s));
 }
 
 // What ground gets of the sun where it faces it, of the whole sky, and of a moon opposite to the sun by night.

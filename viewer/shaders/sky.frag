@@ -49,8 +49,8 @@ void main() {
     float day = dimmed(frame.sun.w);
 #ifdef LOW_SUN
     float s = frame.sun_at_eye.w;
-    float toward = toward_sun(direction);
-    vec3 air_here = air_colour(s, toward);
+    // Redness keeps to the ground.
+    vec3 air_here = air_colour(s, toward_sun(direction) * exp(-2.5 * max(above, 0.0)));
     vec3 zenith_here = zenith_colour(s);
 #else
     vec3 air_here = kHazeColour * day;

@@ -105,11 +105,13 @@ void main() {
     vec3 shown = mix(vec3(0.5), level_colour(surface.level), 0.75) * (0.35 + 0.65 * relief);
     float hazed = 0.0;
 #elif defined(COVER)
-    // Along the ground pixels are long. By their length all would be blurred, by their width it would flicker.
+    // Along the ground pixels are long. By their length all would be blurred, by their width it would flicker. Nor may
+    // one on a sliver that is edge-on count as narrow.
     vec2 along = dFdx(surface.cover.xy);
     vec2 across = dFdy(surface.cover.xy);
     vec2 pixel = vec2(dot(along, along), dot(across, across));
-    float size = exp2(0.29 * rough_log2(max(pixel.x, pixel.y)) + 0.21 * rough_log2(max(min(pixel.x, pixel.y), 1e-9)));
+    float longest = max(max(pixel.x, pixel.y), 1e-12);
+    float size = exp2(0.29 * rough_log2(longest) + 0.21 * rough_log2(max(min(pixel.x, pixel.y), longest / 300.0)));
     float H = here.z * SCENE_HALF + SCENE_MIDDLE;
 #ifdef SHORE
     float sea = share;
