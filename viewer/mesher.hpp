@@ -18,7 +18,8 @@ namespace relevo::viewer {
 class Mesher {
   public:
     /// The terrain must outlive the mesher.
-    explicit Mesher(const lod::Terrain& terrain) : terrain_(terrain), refiner_(terrain) {}
+    explicit Mesher(const lod::Terrain& terrain, const lod::ChunkOptions& chunks = {})
+        : terrain_(terrain), chunk_options_(chunks), refiner_(terrain) {}
 
     /// Of what is in memory; what is missing is asked for. Valid until the next call.
     const lod::Mesh& mesh(const lod::View& view, const ViewState& state) {
@@ -43,9 +44,7 @@ class Mesher {
     Result<const lod::Mesh*> whole_mesh(const lod::View& view, const ViewState& state) {
         if (state.method == Method::full) return &full(view, state);
         if (state.method == Method::lstr) {
-            const lod::Mesh& made = chunks(view, state);
-            if (failure_) return *failure_;
-            return &made;
+            return chunk_mesher().whole_mesh(view, options(state));
         }
         return refiner_.refine_whole(view, options(state));
     }
@@ -78,21 +77,22 @@ class Mesher {
         return full_;
     }
 
-    /// Nothing where a node cannot be read. \pre the terrain has chunks
+    /// \pre the terrain has chunks
+    lod::ChunkMesher& chunk_mesher() {
+        if (!chunk_mesher_) chunk_mesher_.emplace(terrain_, *terrain_.chunks(), chunk_options_);
+        return *chunk_mesher_;
+    }
+    /// Nothing where the root cannot be read.
     const lod::Mesh& chunks(const lod::View& view, const ViewState& state) {
-        if (!chunk_mesher_) chunk_mesher_.emplace(terrain_, *terrain_.chunks());
-        const auto made = chunk_mesher_->mesh(view, options(state));
-        failure_.reset();
-        if (made) return **made;
-        failure_ = std::make_unique<const Error>(made.error());
+        if (const auto made = chunk_mesher().mesh(view, options(state))) return **made;
         full_.clear();
         return full_;
     }
 
     const lod::Terrain& terrain_;
+    const lod::ChunkOptions chunk_options_;
     lod::Refiner refiner_;
     std::optional<lod::ChunkMesher> chunk_mesher_;
-    std::unique_ptr<const Error> failure_;
     lod::Mesh full_;
     std::optional<geo::Ecef> last_eye_;
     Clock::time_point last_time_;

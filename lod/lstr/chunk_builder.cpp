@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <queue>
 #include <tuple>
 #include <utility>
 
@@ -11,6 +12,7 @@
 
 #include "lod/lstr/border_line.hpp"
 #include "lod/soar/cell.hpp"
+#include "lod/static_mesh/grid_triangle.hpp"
 
 namespace relevo::lod {
 
@@ -27,30 +29,6 @@ bool is_before(const PlacedPost& a, const PlacedPost& b) {
 std::uint32_t place_of(const std::vector<PlacedPost>& posts, const PlacedPost& post) {
     return static_cast<std::uint32_t>(std::lower_bound(posts.begin(), posts.end(), post, is_before) -
                                       posts.begin());
-}
-
-/// All posts of a node in two triangles a cell.
-PlanarMesh all_posts(const PostField& field, const ChunkId& id) {
-    const GridPoint first = id.first();
-    const int side = id.cells() + 1;
-    std::vector<PlacedPost> posts;
-    posts.reserve(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
-    for (int row = 0; row < side; ++row) {
-        for (int column = 0; column < side; ++column)
-            posts.push_back(field.post({first.column + column, first.row + row}));
-    }
-    std::vector<IndexTriangle> triangles;
-    for (int row = first.row; row + 1 < first.row + side; ++row) {
-        for (int column = first.column; column + 1 < first.column + side; ++column) {
-            for (const CellTriangle& t : cell_triangles({column, row})) {
-                const auto index = [&](const GridPoint& p) {
-                    return static_cast<std::uint32_t>((p.row - first.row) * side + p.column - first.column);
-                };
-                triangles.push_back({index(t[0]), index(t[1]), index(t[2])});
-            }
-        }
-    }
-    return {std::move(posts), triangles, first, id.cells()};
 }
 
 /// The meshes of four children as one.
@@ -72,9 +50,21 @@ PlanarMesh joined(const ChunkId& id, const std::array<ChunkShape, 4>& children) 
 }
 
 /// Largest error of what a plan puts in a vertex's place, or some error above the limit.
-double error_of(const PostField& field, const PlanarMesh& mesh, const PlanarMesh::Plan& plan,
-                double limit_m) {
+double error_of(const PostField& field, const PlanarMesh& mesh, std::uint32_t vertex,
+                const PlanarMesh::Plan& plan, double limit_m) {
+    // Most of what is too far off is so where the vertex was.
+    const PlacedPost& taken = mesh.post(vertex);
     double error = 0;
+    for (const IndexTriangle& t : plan.triangles) {
+        const PlacedTriangle placed = mesh.placed(plan, t);
+        bool holds = true;
+        for (std::size_t i = 0; i < 3; ++i)
+            holds = holds && turn(placed[i]->at, placed[(i + 1) % 3]->at, taken.at) >= 0;
+        if (!holds) continue;
+        error = error_at(taken, placed);
+        break;
+    }
+    if (error > limit_m) return error;
     for (const IndexTriangle& t : plan.triangles) {
         const PlacedTriangle placed = mesh.placed(plan, t);
         error = std::max(error, field.error(placed, limit_m));
@@ -90,16 +80,16 @@ double error_of(const PostField& field, const PlanarMesh& mesh, const PlanarMesh
 }
 
 /// Of the ways to fill a vertex's place the first that is good enough, or the one with the least error; false
-/// where there is none. What is worse than the limit is only known to be so.
+/// where there is none. Of what is worse than the limit it is only known that it is off by at least `error_m`.
 bool best_plan(const PostField& field, const PlanarMesh& mesh, std::uint32_t vertex, double enough_m,
                double limit_m, PlanarMesh::Plan& best, double& error_m) {
     bool any = mesh.plan(vertex, best);
-    error_m = any ? error_of(field, mesh, best, limit_m) : INFINITY;
+    error_m = any ? error_of(field, mesh, vertex, best, limit_m) : INFINITY;
     if (error_m <= enough_m) return true;
     PlanarMesh::Plan fan = best;
     for (std::uint32_t corner = 0; corner < fan.polygon.size(); ++corner) {
         if (!mesh.plan_fan(corner, fan)) continue;
-        const double error = error_of(field, mesh, fan, std::min(error_m, limit_m));
+        const double error = error_of(field, mesh, vertex, fan, std::min(error_m, limit_m));
         if (any && error >= error_m) continue;
         any = true;
         error_m = error;
@@ -140,20 +130,51 @@ double error_of(const PostField& field, const PlacedTriangle& t, double limit_m)
     return error;
 }
 
-/// Puts posts back inside where a thinner border has left errors greater than the limit, and where there is
-/// none to be put turns edges that are off.
-void mend(const PostField& field, double limit_m, PlanarMesh& mesh) {
-    const auto placed = [&](const IndexTriangle& t) {
-        return PlacedTriangle{&mesh.post(t[0]), &mesh.post(t[1]), &mesh.post(t[2])};
+PlacedTriangle placed(const PlanarMesh& mesh, const IndexTriangle& t) {
+    return {&mesh.post(t[0]), &mesh.post(t[1]), &mesh.post(t[2])};
+}
+
+/// Puts posts inside, the one that is farthest off first, until none is off by more than the limit.
+void insert_posts(const PostField& field, const ChunkId& id, double limit_m, PlanarMesh& mesh) {
+    struct Open {
+        double error_m;
+        GridPoint at;
+        IndexTriangle triangle;
+        bool operator<(const Open& other) const {
+            return std::tie(error_m, other.at.row, other.at.column) <
+                   std::tie(other.error_m, at.row, at.column);
+        }
     };
+    std::priority_queue<Open> open;
+    const auto judge = [&](const IndexTriangle& t) {
+        const PlacedTriangle corners = placed(mesh, t);
+        if (field.error(corners, limit_m) <= limit_m) return;
+        const PostField::Worst worst = field.worst(corners, id.first(), id.cells());
+        if (worst.error_m > limit_m) open.push({worst.error_m, worst.at, t});
+    };
+    for (const IndexTriangle& t : mesh.triangles()) judge(t);
+    while (!open.empty()) {
+        const Open next = open.top();
+        open.pop();
+        if (!mesh.has(next.triangle)) continue;
+        const std::uint32_t v = mesh.insert(field.post(next.at), next.triangle);
+        mesh.legalize(v);
+        const std::vector<std::uint32_t> ring = mesh.ring(v);
+        for (std::size_t i = 0; i < ring.size(); ++i) judge({v, ring[i], ring[(i + 1) % ring.size()]});
+    }
+}
+
+/// Turns edges that are farther off than the limit between posts, where that helps, and puts posts beside
+/// them where it does not.
+void mend_edges(const PostField& field, const ChunkId& id, double limit_m, PlanarMesh& mesh) {
     std::vector<IndexTriangle> open = mesh.triangles();
     std::size_t flips_left = 4 * open.size();
     while (!open.empty()) {
         const IndexTriangle t = open.back();
         open.pop_back();
-        if (!mesh.has(t) || error_of(field, placed(t), limit_m) <= limit_m) continue;
-        const PostField::Worst worst = field.worst(placed(t));
-        if (worst.error_m > 0 && !mesh.is_border(worst.at)) {
+        if (!mesh.has(t) || error_of(field, placed(mesh, t), limit_m) <= limit_m) continue;
+        const PostField::Worst worst = field.worst(placed(mesh, t), id.first(), id.cells());
+        if (worst.error_m > 0) {
             const std::uint32_t v = mesh.insert(field.post(worst.at), t);
             const std::vector<std::uint32_t>& ring = mesh.ring(v);
             for (std::size_t i = 0; i < ring.size(); ++i)
@@ -167,7 +188,9 @@ void mend(const PostField& field, double limit_m, PlanarMesh& mesh) {
             if (before <= limit_m) continue;
             const auto flipped = mesh.flipped(a, b);
             if (!flipped) continue;
-            const auto after = [&](std::size_t k) { return error_of(field, placed((*flipped)[k]), before); };
+            const auto after = [&](std::size_t k) {
+                return error_of(field, placed(mesh, (*flipped)[k]), before);
+            };
             if (after(0) >= before || after(1) >= before) continue;
             --flips_left;
             mesh.flip(a, b, *flipped);
@@ -252,6 +275,11 @@ double error_in(const PostField& field, const ChunkShape& shape) {
     return error;
 }
 
+/// With what floats of positions relative to the field's middle may hide.
+double rounded(const PostField& field, double error_m) {
+    return error_m + 4e-7 * field.extent_m();
+}
+
 ChunkMesh finished(const ChunkShape& shape, const CoarseSurface* coarse) {
     ChunkMesh mesh{shape.id, shape.error_m, shape.error_m, {}, shape.triangles, {}};
     mesh.vertices.reserve(shape.posts.size());
@@ -275,10 +303,24 @@ ChunkErrors ChunkErrors::for_spacing(double spacing_m) {
     return {kPart * spacing_m};
 }
 
+/// The mesh that level 1 begins with: what its sides keep, and its middle.
+PlanarMesh ChunkBuilder::refined(const PostField& field, const ChunkId& id) const {
+    ChunkShape shape = empty_shape(field, id, errors_);
+    return {std::move(shape.posts), shape.triangles, id.first(), id.cells()};
+}
+
+/// The mesh that a coarser level begins with: its children's, with what its sides keep.
+PlanarMesh ChunkBuilder::coarsened(const PostField& field, const ChunkId& id,
+                                   const std::array<ChunkShape, 4>& children) const {
+    PlanarMesh mesh = joined(id, children);
+    thin_border(field, id, kBorderPart * errors_.of_level(id.level), mesh);
+    return mesh;
+}
+
 ChunkShape ChunkBuilder::simplified(const PostField& field, const ChunkId& id, PlanarMesh mesh) const {
     const double limit_m = errors_.of_level(id.level);
-    thin_border(field, id, kBorderPart * limit_m, mesh);
-    mend(field, limit_m, mesh);
+    insert_posts(field, id, limit_m, mesh);
+    mend_edges(field, id, limit_m, mesh);
 
     // By weight: what the filter finds first, then from the middle to the border.
     const GridPoint first = id.first();
@@ -293,14 +335,19 @@ ChunkShape ChunkBuilder::simplified(const PostField& field, const ChunkId& id, P
     }
     std::sort(left.begin(), left.end());
     PlanarMesh::Plan plan;
+    std::vector<double> at_least(mesh.vertices());  // what taking a vertex would cost, until its ring changes
     for (const double part : {0.25, 0.5, 0.75, 1.0, 1.0}) {
         std::erase_if(left, [&](const auto& entry) {
             const std::uint32_t v = entry.second;
+            if (at_least[v] > part * limit_m) return false;
             double error = 0;
             if (!best_plan(field, mesh, v, part * limit_m, part * limit_m, plan, error) ||
-                error > part * limit_m)
+                error > part * limit_m) {
+                at_least[v] = error;
                 return false;
+            }
             mesh.take(v, plan);
+            for (const std::uint32_t u : plan.polygon) at_least[u] = 0;
             return true;
         });
     }
@@ -316,9 +363,6 @@ ChunkShape ChunkBuilder::simplified(const PostField& field, const ChunkId& id, P
         if (mesh.is_alive(v)) place[v] = place_of(shape.posts, mesh.post(v));
     }
     for (const auto& [a, b, c] : mesh.triangles()) shape.triangles.push_back({place[a], place[b], place[c]});
-    shape.error_m = error_in(field, shape);
-    // What floats of positions relative to the square's middle may hide.
-    shape.error_m += 4e-7 * field.extent_m();
     return shape;
 }
 
@@ -335,15 +379,20 @@ ChunkShape ChunkBuilder::moved(const ChunkShape& shape, const CoarseSurface& coa
 ChunkShape ChunkBuilder::build_in(const PostField& field, const ChunkId& id,
                                   std::vector<ChunkMesh>& done) const {
     if (!has_data(id, terrain_.frame())) return empty_shape(field, id, errors_);
-    if (id.level == 1) return simplified(field, id, all_posts(field, id));
+    if (id.level == 1) {
+        ChunkShape shape = simplified(field, id, refined(field, id));
+        shape.error_m = rounded(field, error_in(field, shape));
+        return shape;
+    }
     std::array<ChunkShape, 4> children;
     for (int i = 0; i < 4; ++i) children[static_cast<std::size_t>(i)] = build_in(field, id.child(i), done);
-    ChunkShape shape = simplified(field, id, joined(id, children));
+    ChunkShape shape = simplified(field, id, coarsened(field, id, children));
+    shape.error_m = rounded(field, error_in(field, shape));
     const CoarseSurface coarse(shape);
     for (const ChunkShape& child : children) {
         if (!has_data(child.id, terrain_.frame())) continue;
         done.push_back(finished(child, &coarse));
-        done.back().moved_error_m = error_in(field, moved(child, coarse)) + 4e-7 * field.extent_m();
+        done.back().moved_error_m = rounded(field, error_in(field, moved(child, coarse)));
     }
     return shape;
 }
@@ -363,26 +412,32 @@ Result<ChunkBuilder::Piece> ChunkBuilder::build_piece(const ChunkId& id) const {
     return piece;
 }
 
-/// The error of a mesh of kPieceLevel or coarser against all posts.
-Result<double> ChunkBuilder::measured(const ChunkShape& shape) const {
-    const int below = shape.id.level - kPieceLevel;
+/// The errors of meshes of one node against all posts. \pre kPieceLevel or coarser
+Result<std::vector<double>> ChunkBuilder::measured(const ChunkId& id,
+                                                   const std::vector<ChunkShape>& shapes) const {
+    const int below = id.level - kPieceLevel;
     const int side = 1 << below;
-    std::vector<double> errors(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
-    std::vector<std::optional<Error>> failures(errors.size());
+    const auto pieces = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+    std::vector<std::vector<double>> errors(pieces, std::vector<double>(shapes.size()));
+    std::vector<std::optional<Error>> failures(pieces);
     tbb::parallel_for(0, side * side, [&](int i) {
-        const ChunkId piece{kPieceLevel, (shape.id.column << below) + i % side,
-                            (shape.id.row << below) + i / side};
+        const ChunkId piece{kPieceLevel, (id.column << below) + i % side, (id.row << below) + i / side};
         if (!has_data(piece, terrain_.frame())) return;
+        const auto at = static_cast<std::size_t>(i);
         const auto field = PostField::read(terrain_, piece.first(), piece.cells(), 1);
-        if (field)
-            errors[static_cast<std::size_t>(i)] = error_in(*field, shape) + 4e-7 * field->extent_m();
-        else
-            failures[static_cast<std::size_t>(i)] = field.error();
+        if (!field) {
+            failures[at] = field.error();
+            return;
+        }
+        for (std::size_t k = 0; k < shapes.size(); ++k)
+            errors[at][k] = rounded(*field, error_in(*field, shapes[k]));
     });
-    for (const auto& failure : failures) {
-        if (failure) return *failure;
+    std::vector<double> most(shapes.size());
+    for (std::size_t i = 0; i < pieces; ++i) {
+        if (failures[i]) return *failures[i];
+        for (std::size_t k = 0; k < shapes.size(); ++k) most[k] = std::max(most[k], errors[i][k]);
     }
-    return *std::max_element(errors.begin(), errors.end());
+    return most;
 }
 
 Result<ChunkShape> ChunkBuilder::build_above(const ChunkId& id, const Sink& sink) const {
@@ -407,19 +462,19 @@ Result<ChunkShape> ChunkBuilder::build_above(const ChunkId& id, const Sink& sink
     }
     const auto field = PostField::read(terrain_, id.first(), id.cells(), 1 << (id.level - kPieceLevel));
     if (!field) return field.error();
-    ChunkShape shape = simplified(*field, id, joined(id, children));
-    const auto against_all = measured(shape);
-    if (!against_all) return against_all.error();
-    shape.error_m = std::max(shape.error_m, *against_all);
+    ChunkShape shape = simplified(*field, id, coarsened(*field, id, children));
     const CoarseSurface coarse(shape);
-    for (const ChunkShape& child : children) {
-        if (!has_data(child.id, terrain_.frame())) continue;
-        ChunkMesh mesh = finished(child, &coarse);
-        const auto moved_error = measured(moved(child, coarse));
-        if (!moved_error) return moved_error.error();
-        mesh.moved_error_m = *moved_error;
+    std::vector<ChunkShape> shapes{shape};
+    for (const ChunkShape& child : children) shapes.push_back(moved(child, coarse));
+    const auto errors = measured(id, shapes);
+    if (!errors) return errors.error();
+    for (std::size_t i = 0; i < children.size(); ++i) {
+        if (!has_data(children[i].id, terrain_.frame())) continue;
+        ChunkMesh mesh = finished(children[i], &coarse);
+        mesh.moved_error_m = (*errors)[i + 1];
         if (auto done = sink(mesh); !done) return done.error();
     }
+    shape.error_m = errors->front();
     return shape;
 }
 

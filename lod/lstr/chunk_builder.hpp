@@ -69,10 +69,13 @@ class ChunkBuilder {
 
     struct Piece;
     Result<Piece> build_piece(const ChunkId& id) const;
-    Result<double> measured(const ChunkShape& shape) const;
+    Result<std::vector<double>> measured(const ChunkId& id, const std::vector<ChunkShape>& shapes) const;
     ChunkShape moved(const ChunkShape& shape, const CoarseSurface& coarse) const;
     Result<ChunkShape> build_above(const ChunkId& id, const Sink& sink) const;
     ChunkShape build_in(const PostField& field, const ChunkId& id, std::vector<ChunkMesh>& done) const;
+    PlanarMesh refined(const PostField& field, const ChunkId& id) const;
+    PlanarMesh coarsened(const PostField& field, const ChunkId& id,
+                         const std::array<ChunkShape, 4>& children) const;
     ChunkShape simplified(const PostField& field, const ChunkId& id, PlanarMesh mesh) const;
 
     const Terrain& terrain_;

@@ -20,7 +20,7 @@ namespace relevo::lod {
 
 namespace {
 
-constexpr std::array<char, 8> kMagic{'r', 'e', 'l', 'c', 'h', 'n', 'k', '2'};
+constexpr std::array<char, 8> kMagic{'r', 'e', 'l', 'c', 'h', 'n', 'k', '3'};
 
 /// At the file's beginning; little-endian, as the machines that this runs on are.
 struct Head {
@@ -34,7 +34,8 @@ struct Head {
 static_assert(std::is_trivially_copyable_v<Head> && sizeof(Head) == 160);
 
 struct Row {
-    std::int32_t level, column, row, reserved;
+    std::int32_t level, column, row;
+    std::uint32_t vertices;
     std::uint64_t offset, bytes;
     std::array<char, 16> checksum;
     double error_m, moved_error_m, most_H_m;
@@ -173,6 +174,7 @@ Result<void> ChunkFile::build(const Scene& scene, const Terrain& terrain,
         row.checksum = start_of<16>(sha256_hex(bytes));
         row.error_m = node.error_m;
         row.moved_error_m = node.moved_error_m;
+        row.vertices = node.vertices;
         row.most_H_m = node.most_H_m;
         for (int axis = 0; axis < 3; ++axis) {
             row.middle[static_cast<std::size_t>(axis)] = node.box.middle[axis];
@@ -216,25 +218,24 @@ Result<ChunkFile> ChunkFile::open(const Scene& scene, const Terrain& terrain) {
     const auto table = read_at(made.file_, head.table, head.nodes * sizeof(Row), made.name_);
     if (!table || start_of<64>(sha256_hex(*table)) != head.checksum) return damaged;
     made.first_error_m_ = head.first_error_m;
-    made.levels_.resize(static_cast<std::size_t>(std::max(top_chunk_level(terrain.frame()), 0)) + 1);
     for (std::uint64_t i = 0; i < head.nodes; ++i) {
         Row row{};
         std::memcpy(&row, table->data() + i * sizeof(Row), sizeof(row));
         const ChunkId id{row.level, row.column, row.row};
-        if (id.level < 1 || static_cast<std::size_t>(id.level) >= made.levels_.size() ||
+        if (id.level < 1 || id.level > top_chunk_level(terrain.frame()) ||
             row.offset > head.table || row.bytes > head.table - row.offset)
             return damaged;
         Entry entry;
         entry.place = {row.offset, row.bytes, row.checksum};
         entry.node.error_m = row.error_m;
         entry.node.moved_error_m = row.moved_error_m;
+        entry.node.vertices = row.vertices;
         entry.node.most_H_m = row.most_H_m;
         entry.node.box.axes = ChunkBox::axes_at(terrain, id);
         for (int axis = 0; axis < 3; ++axis) {
             entry.node.box.middle[axis] = row.middle[static_cast<std::size_t>(axis)];
             entry.node.box.half[axis] = row.half[static_cast<std::size_t>(axis)];
         }
-        add_to_level(entry.node, made.levels_[static_cast<std::size_t>(id.level)]);
         made.entries_[id] = entry;
     }
     return made;

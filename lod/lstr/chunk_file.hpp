@@ -35,7 +35,6 @@ class ChunkFile final : public ChunkSet {
 
     const ChunkNode* node(const ChunkId& id) const override;
     Result<std::shared_ptr<const ChunkMesh>> mesh(const ChunkId& id) const override;
-    const std::vector<Level>& levels() const override { return levels_; }
     std::uint64_t bytes() const { return bytes_; }
     std::vector<ChunkId> nodes() const;
 
@@ -56,7 +55,6 @@ class ChunkFile final : public ChunkSet {
     std::uint64_t bytes_ = 0;
     double first_error_m_ = 0;
     std::map<ChunkId, Entry> entries_;
-    std::vector<Level> levels_;
 };
 
 /// Gives a terrain its scene's quadtree: from the file, which is made first where it is not there, or of

@@ -10,6 +10,10 @@
 
 namespace relevo::lod {
 
+/// The four sides of a node.
+enum class Side { west, east, north, south };
+inline constexpr int kSides = 4;
+
 /// A node of the quadtree over the padded grid. Leaves, of level 0, are of kLeafCells cells a side and share
 /// their borders; a node of level k has four of level k - 1.
 struct ChunkId {
@@ -24,6 +28,16 @@ struct ChunkId {
     ChunkId child(int i) const { return {level - 1, 2 * column + (i & 1), 2 * row + (i >> 1)}; }
     ChunkId parent() const { return {level + 1, column / 2, row / 2}; }
 
+    /// The node of the same level across a side. It may lie outside the grid.
+    ChunkId beside(Side side) const {
+        ChunkId other = *this;
+        if (side == Side::west) --other.column;
+        if (side == Side::east) ++other.column;
+        if (side == Side::north) --other.row;
+        if (side == Side::south) ++other.row;
+        return other;
+    }
+
     friend auto operator<=>(const ChunkId&, const ChunkId&) = default;
 };
 
@@ -37,9 +51,5 @@ inline bool has_data(const ChunkId& chunk, const geo::GridFrame& frame) {
     const GridPoint first = chunk.first();
     return first.column < std::max(frame.columns - 1, 1) && first.row < std::max(frame.rows - 1, 1);
 }
-
-/// The four sides of a node.
-enum class Side { west, east, north, south };
-inline constexpr int kSides = 4;
 
 }  // namespace relevo::lod

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "geo/result.hpp"
+#include "lod/lstr/chunk_selector.hpp"
 #include "lod/lstr/chunk_set.hpp"
+#include "lod/lstr/chunk_store.hpp"
 #include "lod/mesh.hpp"
 #include "lod/soar/refiner.hpp"
 #include "lod/terrain.hpp"
@@ -11,16 +14,10 @@
 
 namespace relevo::lod {
 
-/// Distances within which a level is drawn and from which it gives way to the next, by level, metres.
-struct ChunkRange {
-    double morph_from_m = 0;
-    double until_m = 0;
+struct ChunkOptions {
+    ChunkStoreOptions store;
+    SelectionOptions selection;
 };
-
-/// A level is drawn until the next one's error is tau pixels, and far enough that neighbours in the picture
-/// are at most a level apart: its farthest vertex before the next level's ends, morph and all (docs/lstr.md).
-std::vector<ChunkRange> chunk_ranges(const std::vector<ChunkSet::Level>& levels, const View& view,
-                                     const RefineOptions& options);
 
 /// Draws the nodes of a quadtree at the level of detail that a view asks for: the large-scale terrain
 /// renderer of the reference, with levels up to the root. Sides between nodes of different levels are closed
@@ -29,14 +26,28 @@ std::vector<ChunkRange> chunk_ranges(const std::vector<ChunkSet::Level>& levels,
 class ChunkMesher {
   public:
     /// Both must outlive the mesher.
-    ChunkMesher(const Terrain& terrain, const ChunkSet& chunks);
+    ChunkMesher(const Terrain& terrain, const ChunkSet& chunks, const ChunkOptions& options = {});
     ~ChunkMesher();
 
-    /// The mesh of a view, valid until the next call. Fails where a read does.
+    /// The mesh of a view of what is in memory; what is missing, and what is near, is read in the background.
+    /// Valid until the next call. Fails where the root cannot be read.
     Result<const Mesh*> mesh(const View& view, const RefineOptions& options);
 
-    /// Nodes of the last mesh.
-    int drawn() const;
+    /// Of all that the view asks for: waits for what is missing, has no room too small, and nothing fades in.
+    /// Fails where a read does.
+    Result<const Mesh*> whole_mesh(const View& view, const RefineOptions& options);
+
+    SelectionOptions& selection();
+
+    struct Figures {
+        int drawn_nodes = 0;  ///< of the last mesh
+        bool fading = false;  ///< are nodes still coming in?
+        ChunkStore::Figures store;
+    };
+    Figures figures() const;
+
+    /// The first read in the background that failed: the ground is drawn as coarse as what is there.
+    std::optional<Error> failure() const;
 
   private:
     struct Workshop;

@@ -2,7 +2,6 @@
 
 #include <map>
 #include <memory>
-#include <vector>
 
 #include "geo/result.hpp"
 #include "lod/lstr/chunk_box.hpp"
@@ -16,6 +15,7 @@ struct ChunkNode {
     double error_m = 0;
     double moved_error_m = 0;
     double most_H_m = 0;  ///< largest |H| of its vertices
+    std::uint32_t vertices = 0;
 };
 
 /// The nodes of a terrain, and their meshes.
@@ -28,15 +28,6 @@ class ChunkSet {
 
     /// \pre the node is there. May be called from several threads.
     virtual Result<std::shared_ptr<const ChunkMesh>> mesh(const ChunkId& id) const = 0;
-
-    /// What nodes of a level are off the ground, and how large they are, at most. By level; of leaves 0.
-    struct Level {
-        double error_m = 0;
-        double moved_error_m = 0;
-        double diameter_m = 0;
-        double most_H_m = 0;
-    };
-    virtual const std::vector<Level>& levels() const = 0;
 };
 
 /// All of them in memory: for tests, and for terrains that are small.
@@ -46,7 +37,6 @@ class MemoryChunks final : public ChunkSet {
 
     const ChunkNode* node(const ChunkId& id) const override;
     Result<std::shared_ptr<const ChunkMesh>> mesh(const ChunkId& id) const override;
-    const std::vector<Level>& levels() const override { return levels_; }
 
   private:
     struct Entry {
@@ -54,11 +44,7 @@ class MemoryChunks final : public ChunkSet {
         std::shared_ptr<const ChunkMesh> mesh;
     };
     std::map<ChunkId, Entry> entries_;
-    std::vector<Level> levels_;
 };
-
-/// Of all nodes of a level.
-void add_to_level(const ChunkNode& node, ChunkSet::Level& level);
 
 /// Of a mesh that was built.
 ChunkNode chunk_node(const Terrain& terrain, const ChunkMesh& mesh);

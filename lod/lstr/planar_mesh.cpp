@@ -208,6 +208,26 @@ std::uint32_t PlanarMesh::insert(const PlacedPost& post, const IndexTriangle& tr
     return vertex;
 }
 
+void PlanarMesh::legalize(std::uint32_t vertex) {
+    std::vector<std::uint32_t> open = rings_[vertex];
+    while (!open.empty()) {
+        // The edge from here to the ring's next vertex.
+        const std::uint32_t a = open.back();
+        open.pop_back();
+        const std::vector<std::uint32_t>& ring = rings_[vertex];
+        const auto found = std::find(ring.begin(), ring.end(), a);
+        if (found == ring.end()) continue;
+        const std::uint32_t b = found + 1 == ring.end() ? ring.front() : *(found + 1);
+        const auto flip_to = flipped(a, b);
+        if (!flip_to) continue;
+        const std::uint32_t across = (*flip_to)[0][1] == vertex ? (*flip_to)[0][2] : (*flip_to)[0][1];
+        if (!in_circle(posts_[vertex].at, posts_[a].at, posts_[b].at, posts_[across].at)) continue;
+        flip(a, b, *flip_to);
+        open.push_back(a);
+        open.push_back(across);
+    }
+}
+
 std::vector<IndexTriangle> PlanarMesh::triangles() const {
     std::vector<IndexTriangle> found;
     for (std::uint32_t v = 0; v < posts_.size(); ++v) {

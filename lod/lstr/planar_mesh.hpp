@@ -68,6 +68,10 @@ class PlanarMesh {
     /// Puts them there. \param triangles  what flipped() gave
     void flip(std::uint32_t a, std::uint32_t b, const std::array<IndexTriangle, 2>& triangles);
 
+    /// Flips edges until none around a vertex that was just put there has a fourth corner in its triangles'
+    /// circles (Lawson 1977). What changes are triangles of its ring.
+    void legalize(std::uint32_t vertex);
+
     /// Neighbours, counter-clockwise; of a border vertex from one side to the other.
     const std::vector<std::uint32_t>& ring(std::uint32_t vertex) const { return rings_[vertex]; }
 

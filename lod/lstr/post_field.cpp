@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "lod/machine_clones.hpp"
 #include "lod/static_mesh/post_rows.hpp"
 
 namespace relevo::lod {
@@ -13,7 +14,9 @@ namespace relevo::lod {
 PostField::PostField(const Terrain& terrain, const GridPoint& first, int cells, int stride)
     : terrain_(&terrain), first_(first), cells_(cells), stride_(stride), side_(cells / stride + 1) {
     const auto posts = static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_);
-    for (std::vector<float>* each : {&H_, &x_, &y_, &z_, &valid_}) each->resize(posts);
+    H_.resize(posts);
+    constexpr std::size_t kBeyond = 7;  // rows are read by eights
+    for (std::vector<float>* each : {&x_, &y_, &z_, &valid_}) each->resize(posts + kBeyond);
 }
 
 Result<PostField> PostField::read(const Terrain& terrain, const GridPoint& first, int cells, int stride,
@@ -125,6 +128,35 @@ void PostField::for_each_run(const PlacedTriangle& triangle, const Visit& visit)
     });
 }
 
+namespace {
+
+typedef float Eight __attribute__((vector_size(32)));
+typedef float EightFloats __attribute__((vector_size(32), aligned(4), may_alias));
+typedef int EightWhole __attribute__((vector_size(32)));
+
+/// The largest squared distance of posts in a row from a line, of those that are valid.
+[[RELEVO_CLONES("avx2", "default")]] float farthest_of_row(const float* x, const float* y, const float* z,
+                                                           const float* valid, int count,
+                                                           const glm::vec3& from, const glm::vec3& step) {
+    constexpr Eight kLanes{0, 1, 2, 3, 4, 5, 6, 7};
+    Eight largest{};
+    for (int k = 0; k < count; k += 8) {
+        const Eight along = kLanes + static_cast<float>(k);
+        const Eight dx = *reinterpret_cast<const EightFloats*>(x + k) - (from.x + step.x * along);
+        const Eight dy = *reinterpret_cast<const EightFloats*>(y + k) - (from.y + step.y * along);
+        const Eight dz = *reinterpret_cast<const EightFloats*>(z + k) - (from.z + step.z * along);
+        const Eight off =
+            *reinterpret_cast<const EightFloats*>(valid + k) * (dx * dx + dy * dy + dz * dz);
+        const EightWhole larger = (off > largest) & (along < static_cast<float>(count));
+        largest = larger ? off : largest;
+    }
+    float most = largest[0];
+    for (int lane = 1; lane < 8; ++lane) most = std::max(most, largest[lane]);
+    return most;
+}
+
+}  // namespace
+
 double PostField::error(const PlacedTriangle& triangle, double enough) const {
     const Plane plane(triangle, origin_);
     const glm::vec3 step(plane.a_column * static_cast<double>(stride_));
@@ -132,18 +164,15 @@ double PostField::error(const PlacedTriangle& triangle, double enough) const {
     float largest = 0;
     for_each_run(triangle, [&](int row, int first, int count) {
         const std::size_t i = index({first, row});
-        const glm::vec3 from(plane.at(first, row));
-        for (int k = 0; k < count; ++k) {
-            const std::size_t j = i + static_cast<std::size_t>(k);
-            const auto along = static_cast<float>(k);
-            const float x = x_[j] - (from.x + step.x * along);
-            const float y = y_[j] - (from.y + step.y * along);
-            const float z = z_[j] - (from.z + step.z * along);
-            largest = std::max(largest, valid_[j] * (x * x + y * y + z * z));
-        }
+        largest = std::max(largest, farthest_of_row(&x_[i], &y_[i], &z_[i], &valid_[i], count,
+                                                    glm::vec3(plane.at(first, row)), step));
         return largest <= limit;
     });
     return std::sqrt(static_cast<double>(largest));
+}
+
+double error_at(const PlacedPost& post, const PlacedTriangle& triangle) {
+    return glm::distance(Plane(triangle, glm::dvec3(0)).at(post.at.column, post.at.row), post.position);
 }
 
 double PostField::off(const glm::dvec3& drawn, const GridPoint& from, const GridPoint& to,
@@ -206,16 +235,18 @@ double PostField::edge_error(const PlacedPost& a, const PlacedPost& b, double en
     return largest;
 }
 
-PostField::Worst PostField::worst(const PlacedTriangle& triangle) const {
+PostField::Worst PostField::worst(const PlacedTriangle& triangle, const GridPoint& first,
+                                  int cells) const {
     const Plane plane(triangle, origin_);
     Worst worst{triangle[0]->at, 0};
-    for_each_run(triangle, [&](int row, int first, int count) {
+    for_each_run(triangle, [&](int row, int first_column, int count) {
         for (int k = 0; k < count; ++k) {
-            const GridPoint at{first + k * stride_, row};
+            const GridPoint at{first_column + k * stride_, row};
             const std::size_t i = index(at);
-            const bool on_side = at.column == first_.column || at.column == first_.column + cells_ ||
-                                 at.row == first_.row || at.row == first_.row + cells_;
-            if (on_side || !(valid_[i] > 0)) continue;
+            const bool inside = at.column > first.column && at.column < first.column + cells &&
+                                at.row > first.row && at.row < first.row + cells;
+            const bool is_corner = at == triangle[0]->at || at == triangle[1]->at || at == triangle[2]->at;
+            if (!inside || is_corner || !(valid_[i] > 0)) continue;
             const double error = glm::distance(
                 plane.at(at.column, row), glm::dvec3(static_cast<double>(x_[i]), static_cast<double>(y_[i]),
                                                      static_cast<double>(z_[i])));
@@ -223,9 +254,6 @@ PostField::Worst PostField::worst(const PlacedTriangle& triangle) const {
         }
         return true;
     });
-    for (const PlacedPost* corner : triangle) {
-        if (corner->at == worst.at) worst.error_m = 0;
-    }
     return worst;
 }
 

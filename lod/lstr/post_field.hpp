@@ -20,6 +20,9 @@ struct PlacedPost {
 };
 using PlacedTriangle = std::array<const PlacedPost*, 3>;
 
+/// How far a post is from the triangle's point at the same grid coordinates, metres.
+double error_at(const PlacedPost& post, const PlacedTriangle& triangle);
+
 /// The posts of a square of the padded grid, or every 2^k-th of them: what triangles are judged by.
 class PostField {
   public:
@@ -46,12 +49,12 @@ class PostField {
     double extent_m() const { return extent_m_; }
     /// Is any post valid?
     bool has_data() const { return has_data_; }
-    /// The valid post that is farthest off, of those that are not on the square's sides and no corners.
+    /// The valid post that is farthest off, of those inside a square and no corners of the triangle.
     struct Worst {
         GridPoint at;
         double error_m = 0;
     };
-    Worst worst(const PlacedTriangle& triangle) const;
+    Worst worst(const PlacedTriangle& triangle, const GridPoint& first, int cells) const;
 
     const GridPoint& first() const { return first_; }
     int cells() const { return cells_; }

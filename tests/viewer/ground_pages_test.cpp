@@ -213,30 +213,6 @@ TEST_F(GroundPagesTest, WithoutItsTopThereIsNoGround) {
     EXPECT_EQ(made.error().kind, ErrorKind::damaged);
 }
 
-TEST(PageLoader, LoadsTheMostUrgentFirstAndForgetsWhatIsNotAskedForAnyMore) {
-    std::mutex gate;
-    std::vector<Page> loaded;
-    gate.lock();
-    viewer::PageLoader loader(
-        [&](const Page& page) -> Result<viewer::PageTexels> {
-            const std::lock_guard lock(gate);
-            loaded.push_back(page);
-            return viewer::PageTexels{};
-        },
-        1);
-    const Page a{0, 1, 0}, b{0, 2, 0}, c{0, 3, 0};
-    EXPECT_FALSE(loader.wait()) << "nothing was asked for";
-    loader.request({a});
-    while (loader.is_waiting(a)) std::this_thread::yield();
-    loader.request({a, b, c});  // a is begun
-    loader.request({c, a});
-    gate.unlock();
-    EXPECT_EQ(loader.wait()->page, a);
-    EXPECT_EQ(loader.wait()->page, c);
-    EXPECT_FALSE(loader.wait());
-    EXPECT_EQ(loaded, (std::vector<Page>{a, c}));
-}
-
 TEST(PageTexels, GoOnBeyondTheDataAndKnowTheirVoids) {
     const auto frame = geographic_frame(301, 701);
     const auto heights = make_heights(frame, [](int column, int row) {

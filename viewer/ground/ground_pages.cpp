@@ -83,11 +83,11 @@ void GroundPages::want(const Sight& sight, double exaggeration) {
 }
 
 void GroundPages::put(PageLoader::Loaded loaded) {
-    const bool wanted = is_wanted_.count(loaded.page) != 0;
-    if (!loaded.texels) {
-        if (damaged_.insert(loaded.page).second) {
-            data_.report(loaded.texels.error().message);
-            if (!damage_) damage_ = loaded.texels.error();
+    const bool wanted = is_wanted_.count(loaded.key) != 0;
+    if (!loaded.piece) {
+        if (damaged_.insert(loaded.key).second) {
+            data_.report(loaded.piece.error().message);
+            if (!damage_) damage_ = loaded.piece.error();
         }
         if (wanted) {
             wanted_.damaged = true;
@@ -96,9 +96,9 @@ void GroundPages::put(PageLoader::Loaded loaded) {
         return;
     }
     // Wanted pages never outnumber the slots, so that one that is wanted finds one.
-    if (const auto slot = slots_.place(loaded.page, wanted)) {
-        fill_(*slot, *loaded.texels);
-        sea_[static_cast<std::size_t>(*slot)] = PageSea(loaded.texels->shore);
+    if (const auto slot = slots_.place(loaded.key, wanted)) {
+        fill_(*slot, *loaded.piece);
+        sea_[static_cast<std::size_t>(*slot)] = PageSea(loaded.piece->shore);
         if (wanted && missing_ > 0) --missing_;
     }
 }

@@ -8,15 +8,18 @@
 #include <vector>
 
 #include "geo/post_positions.hpp"
+#include "lod/background_loader.hpp"
 #include "lod/undulation_grid.hpp"
 #include "viewer/ground/ground_data.hpp"
-#include "viewer/ground/page_loader.hpp"
 #include "viewer/ground/page_sea.hpp"
 #include "viewer/ground/page_slots.hpp"
 #include "viewer/ground/page_table.hpp"
+#include "viewer/ground/page_texels.hpp"
 #include "viewer/ground/wanted_pages.hpp"
 
 namespace relevo::viewer {
+
+using PageLoader = lod::BackgroundLoader<Page, PageTexels>;
 
 /// Keeps those pages of the ground in a fixed number of slots that pictures want: has them loaded in the
 /// background, and says what is where. It draws nothing: slots are filled by a function that it is given.
