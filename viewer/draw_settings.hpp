@@ -21,8 +21,8 @@ struct DrawSettings {
     OceanSettings ocean = {.kind = OceanKind::off};
 };
 
-/// What a view says of it. Where it leaves the ocean open there is one in the tints alone: other layers show
-/// values of the ground, which water would cover.
+/// What a view says of it. Where it leaves the ocean open there is one in the tints and in the natural
+/// ground: other layers show values of the ground, which water would cover.
 DrawSettings draw_settings(const ViewState& view);
 
 }  // namespace relevo::viewer

@@ -55,6 +55,9 @@ KeyAction press_key(ViewState& view, const Input::Key& key) {
         case GLFW_KEY_4:
             view.layer = Layer::lod;
             break;
+        case GLFW_KEY_5:
+            view.layer = Layer::terrain;
+            break;
         case GLFW_KEY_N:
             view.heading = view.roll = geo::Degrees{0};
             break;

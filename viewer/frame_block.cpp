@@ -84,10 +84,11 @@ FrameBlock frame_block(const lod::View& view, const lod::Terrain& terrain, const
     const auto here = sun_at(sun, {camera.eye.lat, camera.eye.lon});
     const glm::dvec3 to_sun = sun_along(here, geo::Degrees{0});  // in east, north, up
     const double daylight = std::clamp((to_sun.z + 0.10) / 0.25, 0.0, 1.0);
+    const glm::dvec3 to_sun_ecef = to_sun.x * local.east() + to_sun.y * local.north() + to_sun.z * local.up();
     const bool fixed = sun.kind == SunSetting::Kind::time;
-    block.sun = vec4(fixed ? to_sun.x * local.east() + to_sun.y * local.north() + to_sun.z * local.up()
-                           : lamp_in_grid(here, grid),
-                     daylight * daylight * (3 - 2 * daylight));
+    block.sun =
+        vec4(fixed ? to_sun_ecef : lamp_in_grid(here, grid), daylight * daylight * (3 - 2 * daylight));
+    block.sun_at_eye = vec4(to_sun_ecef, to_sun.z);
     block.surface = glm::dvec4(exaggeration, terrain.levels(), 1 / kVisibilityM,
                                may_be_below(camera.eye, terrain, exaggeration) ? 1 : 0);
 

@@ -22,8 +22,9 @@ struct FrameBlock {
     glm::vec4 ray_up;
     glm::vec4 eye_scaled;
     glm::vec4 base_axes;
+    glm::vec4 sun_at_eye;
 };
-static_assert(sizeof(FrameBlock) == 64 + 10 * 16);
+static_assert(sizeof(FrameBlock) == 64 + 11 * 16);
 
 /// The part of the whole picture that is drawn, in pixels from its upper left corner.
 struct Window {

@@ -130,7 +130,7 @@ void keys_panel() {
                                     {"L", "wireframe by level"},
                                     {"M", "morphing on, off"},
                                     {"X Z", "more, less exaggeration"},
-                                    {"1 2 3 4", "tints, hillshade, slope, levels"},
+                                    {"1 2 3 4 5", "tints, hillshade, slope, levels, terrain"},
                                     {"N", "north up"},
                                     {"Home", "the whole scene"},
                                     {"C", "copy the coordinates under the cursor"},

@@ -15,6 +15,7 @@ enum class Layer {
     hillshade,    ///< light and shadow alone
     slope,        ///< steepness of the true ground, 0 to 60 degrees
     lod,          ///< the level of each triangle
+    terrain,      ///< grass, rock, gravel and snow, by day and by night
 };
 
 std::string_view to_string(Layer layer);

@@ -28,6 +28,11 @@ void stream(const GlBuffer& buffer, std::size_t& capacity, const void* data, std
     glNamedBufferSubData(buffer.name(), 0, static_cast<GLsizeiptr>(bytes), data);
 }
 
+/// Has shaders/light.glsl dusk or night there?
+bool is_low(const SunSetting& sun, const geo::Geodetic& eye) {
+    return std::sin(sun_at(sun, {eye.lat, eye.lon}).elevation.radians()) < 0.22;
+}
+
 }  // namespace
 
 Renderer::Renderer(const lod::Terrain& terrain, GroundTextures ground, const EyeHeight* heights)
@@ -40,15 +45,6 @@ Result<Renderer> Renderer::create(const lod::Terrain& terrain, const GroundData&
     if (!ground) return ground.error();
     Renderer made(terrain, *std::move(ground), data.heights);
     if (auto done = made.make_ramps(); !done) return done.error();
-
-    auto sky = build_program({.name = "sky",
-                              .defines = {},
-                              .common = shader_text("frame.glsl"),
-                              .vertex = shader_text("sky.vert"),
-                              .geometry = {},
-                              .fragment = shader_text("sky.frag")});
-    if (!sky) return sky.error();
-    made.sky_program_ = std::move(*sky);
 
     made.frame_ = GlBuffer::create();
     glNamedBufferStorage(made.frame_.name(), sizeof(FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
@@ -98,6 +94,23 @@ void Renderer::make_vertex_array() {
     glVertexArrayAttribBinding(array, 1, 0);
 }
 
+Result<GlName> Renderer::sky_program(bool low_sun) {
+    GlProgram& program = sky_programs_[low_sun ? 1 : 0];
+    if (!program) {
+        const std::string common =
+            std::string(shader_text("frame.glsl")) + std::string(shader_text("light.glsl"));
+        auto built = build_program({.name = "sky",
+                                    .defines = low_sun ? "#define LOW_SUN\n" : "",
+                                    .common = common,
+                                    .vertex = shader_text("sky.vert"),
+                                    .geometry = {},
+                                    .fragment = shader_text("sky.frag")});
+        if (!built) return built.error();
+        program = std::move(*built);
+    }
+    return program.name();
+}
+
 Result<GlName> Renderer::terrain_program(const Variant& variant) {
     if (const auto known = terrain_programs_.find(variant); known != terrain_programs_.end()) {
         return known->second.name();
@@ -111,18 +124,26 @@ Result<GlName> Renderer::terrain_program(const Variant& variant) {
     if (ground_->facts().has_voids) defines += "#define VOIDS\n";
     if (const auto* polar = terrain_->positions().polar())
         defines += fmt::format("#define POLE {:.1f}\n", polar->plane().pole);
+    const bool covered = variant.layer == Layer::terrain;
+    if (variant.ocean || covered) defines += shore_defines(ground_->facts());
     if (variant.ocean) {
-        defines += "#define OCEAN\n" + shore_defines(ground_->facts());
-    } else if (ground_->facts().has_sea && variant.layer == Layer::hypsometric) {
+        defines += "#define OCEAN\n";
+    } else if (ground_->facts().has_sea && (variant.layer == Layer::hypsometric || covered)) {
         defines += "#define TINTED_SEA\n";
     }
+    std::string common(shader_text("frame.glsl"));
+    if (covered) {
+        defines += ground_->facts().has_sea ? "#define COVER\n#define SHORE\n" : "#define COVER\n";
+        common += std::string(shader_text("light.glsl")) + std::string(shader_text("cover_block.glsl"));
+    }
     const std::string fragment = std::string(shader_text("ground.glsl")) +
+                                 std::string(covered ? shader_text("cover.glsl") : std::string_view{}) +
                                  std::string(variant.ocean ? shader_text("shore.glsl") : std::string_view{}) +
                                  std::string(shader_text("terrain.frag"));
     auto program =
         build_program({.name = "terrain",
                        .defines = std::move(defines),
-                       .common = shader_text("frame.glsl"),
+                       .common = common,
                        .vertex = shader_text("terrain.vert"),
                        .geometry = variant.wireframe ? shader_text("terrain.geom") : std::string_view{},
                        .fragment = fragment});
@@ -157,6 +178,10 @@ void Renderer::prepare(const lod::View& view, const DrawSettings& settings, cons
     glNamedBufferSubData(frame_.name(), 0, sizeof(block), &block);
     glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, frame_.name());
     ground_->update(Sight(view, part), settings.exaggeration);
+    if (settings.layer == Layer::terrain) {
+        if (!cover_) cover_.emplace();
+        cover_->update(terrain_->frame(), {view.camera().eye.lat, view.camera().eye.lon});
+    }
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);  // the ground is also seen from below
     glEnable(GL_DEPTH_TEST);
@@ -167,6 +192,7 @@ void Renderer::draw_terrain(GlName program, Layer layer) {
     glUseProgram(program);
     glBindVertexArray(vertex_array_.name());
     ground_->bind();
+    if (layer == Layer::terrain) cover_->bind();
     glBindTextureUnit(kRampUnit, ramps_[layer == Layer::slope ? 1 : 0].name());
     glEnable(GL_CLIP_DISTANCE0);
     glEnable(GL_CLIP_DISTANCE1);
@@ -212,6 +238,9 @@ Result<DrawFigures> Renderer::draw(const lod::View& view, const DrawSettings& se
     const bool sky = !settings.background;
     const auto program = terrain_program(variant(settings));
     if (!program) return program.error();
+    const bool low_sun = is_low(settings.sun, view.camera().eye);
+    const auto sky_program_name = sky ? sky_program(low_sun) : GlName{0};
+    if (!sky_program_name) return sky_program_name.error();
     prepare(view, settings, {region.x, region.y, target.width(), target.height()});
 
     const auto colour = settings.background.value_or(std::array<float, 3>{0, 0, 0});
@@ -222,7 +251,8 @@ Result<DrawFigures> Renderer::draw(const lod::View& view, const DrawSettings& se
         glBeginQuery(GL_ANY_SAMPLES_PASSED, seen_.name());
     }
     const auto start = std::chrono::steady_clock::now();
-    const auto ocean = ocean_->draw(view, settings.ocean, {.sun = settings.sun, .sky = sky});
+    const auto ocean =
+        ocean_->draw(view, settings.ocean, {.sun = settings.sun, .sky = sky, .low_sun = low_sun});
     if (!ocean) return ocean.error();
     figures.ocean = *ocean;
     if (measured && ocean->draw_calls > 0) {
@@ -243,7 +273,7 @@ Result<DrawFigures> Renderer::draw(const lod::View& view, const DrawSettings& se
         // After the ground, and only where nothing was drawn: there depth is still 0.
         glDepthFunc(GL_EQUAL);
         glDepthMask(GL_FALSE);
-        glUseProgram(sky_program_.name());
+        glUseProgram(*sky_program_name);
         glBindVertexArray(no_vertices_.name());
         glDrawArrays(GL_TRIANGLES, 0, 3);
         glDepthMask(GL_TRUE);

@@ -12,6 +12,7 @@
 #include "lod/view.hpp"
 #include "viewer/draw_settings.hpp"
 #include "viewer/gl_object.hpp"
+#include "viewer/ground/ground_cover.hpp"
 #include "viewer/ground/ground_textures.hpp"
 #include "viewer/layer.hpp"
 #include "viewer/ocean/ocean.hpp"
@@ -87,6 +88,7 @@ class Renderer {
     void prepare(const lod::View& view, const DrawSettings& settings, const PicturePart& part);
     void draw_terrain(GlName program, Layer layer);
     Result<GlName> terrain_program(const Variant& variant);
+    Result<GlName> sky_program(bool low_sun);
     Result<void> make_ramps();
     /// The ocean's, where the eye is above the ground.
     Result<int> fill(const lod::View& view, const DrawSettings& settings);
@@ -97,7 +99,9 @@ class Renderer {
     std::unique_ptr<Ocean> ocean_;
     std::array<GlTexture, 2> ramps_;  // hypsometric, slope
     std::map<Variant, GlProgram> terrain_programs_;
-    GlProgram sky_program_;
+    /// By day, and with a low sun, which is made when there is one.
+    std::array<GlProgram, 2> sky_programs_;
+    std::optional<GroundCover> cover_;  // made with the layer's first picture
     GlBuffer frame_;
     GlBuffer vertices_;
     GlBuffer indices_;

@@ -94,7 +94,6 @@ TEST(ViewString, RefusesWhatMakesNoSense) {
                              "0,0,0/pitch=91",
                              "0,0,0/exaggeration=-1",
                              "0,0,0/layer=imagery",
-                             "0,0,0/layer=terrain",
                              "0,0,0/layer=mud",
                              "0,0,0/lod=cdlod",
                              "0,0,0/sun=noon",

@@ -244,7 +244,8 @@ Result<GlName> Ocean::program(const Variant& variant) {
     if (const auto* polar = terrain_->positions().polar())
         defines += fmt::format("#define POLE {:.1f}\n", polar->plane().pole);
     std::string common;
-    for (const char* file : {"frame.glsl", "ground.glsl", "shore.glsl", "ocean.glsl"})
+    if (variant.low_sun) defines += "#define LOW_SUN\n";
+    for (const char* file : {"frame.glsl", "light.glsl", "ground.glsl", "shore.glsl", "ocean.glsl"})
         common += shader_text(file);
     std::string vertex(shader_text(vertex_shader(variant.kind)));
     if (variant.map) vertex += shader_text("wave_map.glsl");
@@ -290,9 +291,10 @@ Result<OceanFigures> Ocean::draw(const lod::View& view, const OceanSettings& set
     make_objects();
     bake_ripples(settings.time_s);
     update_undulation(sea, sea_h_m);
-    const auto open_water = program({kind, false, look.sky, look.probe, waves_seen && map_, false});
+    const bool map = waves_seen && map_;
+    const auto open_water = program({kind, false, look.sky, look.low_sun, look.probe, map, false});
     if (!open_water) return open_water.error();
-    const auto shore = program({kind, true, look.sky, look.probe, waves_seen && map_, false});
+    const auto shore = program({kind, true, look.sky, look.low_sun, look.probe, map, false});
     if (!shore) return shore.error();
     const OceanBlock block =
         ocean_block(sea, sea_h_m, kUndulationReach, waves_seen && !map_ ? waves_ : lod::Waves(), *ripples_,
@@ -319,7 +321,7 @@ Result<OceanFigures> Ocean::draw(const lod::View& view, const OceanSettings& set
     draw_runs(drawn.runs().shore, *shore);
     glDisable(GL_POLYGON_OFFSET_FILL);
 
-    last_.variant = {OceanKind::off, true, look.sky, look.probe, false, true};
+    last_.variant = {OceanKind::off, true, look.sky, look.low_sun, look.probe, false, true};
     last_.shore = !drawn.runs().shore.empty();
     if (last_.shore) {
         const lod::SeaSpacing still(lod::Waves(), lod::height_px(view), 0.5, sea.radius_m);

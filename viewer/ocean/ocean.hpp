@@ -45,7 +45,8 @@ class Ocean {
 
     struct Look {
         SunSetting sun;
-        bool sky = true;  ///< haze in the distance
+        bool sky = true;       ///< haze in the distance
+        bool low_sun = false;  ///< it mirrors a sky of dusk or night
         /// Instead of colours: place in the chart from the nadir, height of the waves, 2.
         bool probe = false;
     };
@@ -67,7 +68,7 @@ class Ocean {
   private:
     struct Variant {
         OceanKind kind;
-        bool shore, sky, probe, map, fill;
+        bool shore, sky, low_sun, probe, map, fill;
         friend auto operator<=>(const Variant&, const Variant&) = default;
     };
 

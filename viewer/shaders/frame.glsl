@@ -13,6 +13,7 @@ layout(std140, binding = 0) uniform Frame {
     vec4 ray_up;
     vec4 eye_scaled;        // where the base surface is the unit sphere; w: squared length - 1, rounded from double
     vec4 base_axes;         // 1 / semi-axes of the base surface, times the semi-major one
+    vec4 sun_at_eye;        // towards the sun, ECEF axes; w: sine of its elevation
 }
 frame;
 

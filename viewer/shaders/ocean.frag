@@ -16,7 +16,15 @@ out vec4 colour;
 
 const vec3 kFoam = vec3(0.86, 0.90, 0.92);
 
-vec3 sky_in(float rise) { return mix(kHazeColour, kZenithColour, 1.0 - exp(-3.5 * max(rise, 0.0))); }
+#ifdef LOW_SUN
+vec3 air_in(vec3 direction) { return air_colour(frame.sun_at_eye.w, toward_sun(direction)); }
+vec3 zenith() { return zenith_colour(frame.sun_at_eye.w); }
+#else
+vec3 air_in(vec3 direction) { return kHazeColour * dimmed(ocean.sun.w); }
+vec3 zenith() { return kZenithColour * dimmed(ocean.sun.w); }
+#endif
+
+vec3 sky_in(vec3 direction, float rise) { return mix(air_in(direction), zenith(), 1.0 - exp(-3.5 * max(rise, 0.0))); }
 
 // Slope of a layer of ripples, where the mesh does not carry their waves itself.
 vec2 ripple_slope(int layer) {
@@ -77,7 +85,7 @@ void main() {
     body = water_over(bed, depth, flat_facing);
 #endif
     vec3 mirror = reflect(-to_eye, normal);
-    vec3 shown = mix(body * day, sky_in(abs(dot(mirror, water.up))) * day, mirrored);
+    vec3 shown = mix(body * day, sky_in(mirror, abs(dot(mirror, water.up))), mirrored);
 
     // The sun: the share of facets that throw it here (Cox and Munk).
     vec3 sun = ocean.sun.xyz;
@@ -98,7 +106,7 @@ void main() {
     if (flat_facing < 0.0 && ocean.nadir_up.w < water.wave.z)
         shown = mix(kDeep * 1.6, kZenithColour, -flat_facing * flat_facing * flat_facing) * day;
 #ifdef SKY
-    shown = mix(shown, kHazeColour * day, water.body.a);
+    shown = mix(shown, air_in(water.offset), water.body.a);
 #endif
     colour = vec4(min(shown, vec3(1.0)), 1.0);
 #endif

@@ -11,6 +11,9 @@ in Surface {
 #ifdef SUN_FIXED
     vec3 sun;
 #endif
+#ifdef COVER
+    vec4 cover;
+#endif
 #ifdef WIREFRAME
     vec3 barycentric;
 #endif
@@ -56,9 +59,11 @@ void main() {
     vec2 y = abs(dFdy(surface.grid));
     ivec2 cell = cell_at(surface.grid);
     PagePlace place = page_place(surface.grid, cell, max(max(x.x, y.x), max(x.y, y.y)));
+#if defined(TINTED_SEA) || defined(SHORE)
+    float share = at_place(shore, place).r;
+#endif
 #ifdef TINTED_SEA
     // The waterline is half way between a post of land and one of sea, and a pixel wide.
-    float share = at_place(shore, place).r;
     float water = smoothstep(-0.7, 0.7, (share - 0.5) / max(fwidth(share), 1e-4));
 #endif
     vec4 here = at_place(posts, place);
@@ -99,6 +104,33 @@ void main() {
 #elif LAYER == 3  // lod
     vec3 shown = mix(vec3(0.5), level_colour(surface.level), 0.75) * (0.35 + 0.65 * relief);
     float hazed = 0.0;
+#elif defined(COVER)
+    // Along the ground pixels are long. By their length all would be blurred, by their width it would flicker. Nor may
+    // one on a sliver that is edge-on count as narrow.
+    vec2 along = dFdx(surface.cover.xy);
+    vec2 across = dFdy(surface.cover.xy);
+    vec2 pixel = vec2(dot(along, along), dot(across, across));
+    float longest = max(max(pixel.x, pixel.y), 1e-12);
+    float size = exp2(0.29 * rough_log2(longest) + 0.21 * rough_log2(max(min(pixel.x, pixel.y), longest / 300.0)));
+    float H = here.z * SCENE_HALF + SCENE_MIDDLE;
+#ifdef SHORE
+    float sea = share;
+#else
+    const float sea = 0.0;
+#endif
+    float slope = degrees(acos(clamp(true_normal.z, 0.0, 1.0)));
+    CoverLook ground = cover_at(surface.cover.xy, size, slope, H, sea, surface.cover.z);
+    vec3 bumpy = normalize(vec3(normal.xy - ground.slope * normal.z, normal.z));
+    // Bumps face the sun on slopes that turn away from it, too, but lie in their shadow.
+    float sunny = max(dot(bumpy, sun), 0.0) * smoothstep(-0.02, 0.15, lit);
+    vec3 moon = normalize(vec3(-sun.xy, 0.9));
+    vec3 light = sunlight(sun.z) * sunny + skylight(sun.z) * (0.62 + 0.38 * bumpy.z) +
+                 moonlight(sun.z) * max(dot(bumpy, moon), 0.0);
+    vec3 shown = softened(ground.colour * light);
+#ifdef TINTED_SEA
+    shown = mix(shown, water_colour(H, sun.z), water);
+#endif
+    float hazed = surface.haze;
 #endif
     // The ground from below. Only where the eye can be there: seen from above, a sliver on a ridge may turn its back by
     // rounding.
@@ -109,7 +141,11 @@ void main() {
     hazed *= 0.5;
 #endif
 #ifdef SKY
+#ifdef COVER
+    shown = mix(shown, air_colour(sun.z, surface.cover.w), hazed);
+#else
     shown = mix(shown, kHazeColour * day, hazed);
+#endif
 #endif
 #ifdef PROBE
     colour = vec4(0.0, 0.0, 0.0, 1.0);

@@ -20,6 +20,9 @@ in Surface {
 #ifdef SUN_FIXED
     vec3 sun;
 #endif
+#ifdef COVER
+    vec4 cover;
+#endif
 }
 corner[];
 
@@ -29,6 +32,9 @@ out WiredSurface {
     flat float level;
 #ifdef SUN_FIXED
     vec3 sun;
+#endif
+#ifdef COVER
+    vec4 cover;
 #endif
     vec3 barycentric;
 }
@@ -44,6 +50,9 @@ void main() {
         surface.level = corner[2].level;
 #ifdef SUN_FIXED
         surface.sun = corner[i].sun;
+#endif
+#ifdef COVER
+        surface.cover = corner[i].cover;
 #endif
         surface.barycentric = vec3(i == 0, i == 1, i == 2);
         EmitVertex();

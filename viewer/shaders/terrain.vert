@@ -13,8 +13,20 @@ out Surface {
 #ifdef SUN_FIXED
     vec3 sun;  // along the grid's row, up its column, and up: it turns as the ground curves
 #endif
+#ifdef COVER
+    vec4 cover;  // metres from the cover's anchor; H of the snow line; how much towards the sun
+#endif
 }
 surface;
+
+#ifdef COVER
+// Climatic snow line, metres: 5600 to 15 degrees of latitude, 5200 at 28, 3900 at 43, 1900 at 60, 0 at the poles. Mountain
+// ranges are up to 700 m off it.
+float snow_line(float lat) {
+    float c = cos(1.2 * max(abs(lat) - 0.2618, 0.0));
+    return 5600.0 * c * c;
+}
+#endif
 
 // Depth of the vertex in the bisection: 0 for the corners, 2 n for the last posts.
 float bisection_level(uvec2 at) {
@@ -39,6 +51,16 @@ void main() {
     float rise = dot(offset, frame.eye_up.xyz);
     float sinking = (way * way - rise * rise) / (2.0 * 6371000.0);
     surface.haze = haze(way, frame.eye_up.w, frame.eye_up.w + rise + sinking);
+#ifdef COVER
+#ifdef POLE
+    vec2 in_plane = frame.place.xy + at.yx * frame.place.zw;
+    float latitude = asin(2.0 / (1.0 + dot(in_plane, in_plane)) - 1.0);
+#else
+    float latitude = frame.place.y - at.y * frame.place.w;
+#endif
+    vec2 from_anchor = (at - cover.anchor.xy) * vec2(cover.anchor.z, -cover.anchor.w);
+    surface.cover = vec4(from_anchor, snow_line(latitude), toward_sun(offset));
+#endif
 #if defined(SUN_FIXED) && defined(POLE)
     // The tangents of a sphere along x and y of its stereographic projection; that latitudes are conformal here turns
     // them by 0.2 degrees at most.
