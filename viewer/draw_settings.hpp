@@ -22,7 +22,7 @@ struct DrawSettings {
 };
 
 /// What a view says of it. Where it leaves the ocean open there is one in the tints alone: other layers show
-/// values of the ground, which water would cover.
+/// values of the ground, which water would cover. The plain layer, which pixels cost nothing, never has one.
 DrawSettings draw_settings(const ViewState& view);
 
 }  // namespace relevo::viewer

@@ -61,6 +61,8 @@ std::string_view to_string(Layer layer) {
             return "hillshade";
         case Layer::slope:
             return "slope";
+        case Layer::plain:
+            return "plain";
         case Layer::lod:
             break;
     }
@@ -68,18 +70,18 @@ std::string_view to_string(Layer layer) {
 }
 
 Result<Layer> parse_layer(std::string_view text) {
-    for (const Layer layer : {Layer::hypsometric, Layer::hillshade, Layer::slope, Layer::lod}) {
+    for (const Layer layer : {Layer::hypsometric, Layer::hillshade, Layer::slope, Layer::lod, Layer::plain}) {
         if (text == to_string(layer)) return layer;
     }
     if (text == "terrain" || text == "imagery") {
         return Error{
             ErrorKind::usage,
-            fmt::format("the layer \"{}\" comes with a later version; hypsometric, hillshade, slope and lod "
-                        "are here",
+            fmt::format("the layer \"{}\" comes with a later version; hypsometric, hillshade, slope, lod "
+                        "and plain are here",
                         text)};
     }
     return Error{ErrorKind::usage,
-                 fmt::format("no layer \"{}\": hypsometric, hillshade, slope or lod", text)};
+                 fmt::format("no layer \"{}\": hypsometric, hillshade, slope, lod or plain", text)};
 }
 
 std::vector<std::array<std::uint8_t, 4>> colour_ramp(Layer layer, const HeightSpan& span) {
