@@ -61,6 +61,8 @@ std::string_view to_string(Layer layer) {
             return "hillshade";
         case Layer::slope:
             return "slope";
+        case Layer::plain:
+            return "plain";
         case Layer::terrain:
             return "terrain";
         case Layer::lod:
@@ -70,19 +72,19 @@ std::string_view to_string(Layer layer) {
 }
 
 Result<Layer> parse_layer(std::string_view text) {
-    for (const Layer layer :
-         {Layer::hypsometric, Layer::hillshade, Layer::slope, Layer::lod, Layer::terrain}) {
+    for (const Layer layer : {Layer::hypsometric, Layer::hillshade, Layer::slope, Layer::lod, Layer::plain,
+                              Layer::terrain}) {
         if (text == to_string(layer)) return layer;
     }
     if (text == "imagery") {
         return Error{
             ErrorKind::usage,
-            fmt::format("the layer \"{}\" comes with a later version; hypsometric, hillshade, slope, lod and "
-                        "terrain are here",
+            fmt::format("the layer \"{}\" comes with a later version; hypsometric, hillshade, slope, lod, "
+                        "plain and terrain are here",
                         text)};
     }
     return Error{ErrorKind::usage,
-                 fmt::format("no layer \"{}\": hypsometric, hillshade, slope, lod or terrain", text)};
+                 fmt::format("no layer \"{}\": hypsometric, hillshade, slope, lod, plain or terrain", text)};
 }
 
 std::vector<std::array<std::uint8_t, 4>> colour_ramp(Layer layer, const HeightSpan& span) {
