@@ -16,6 +16,7 @@ enum class Layer {
     slope,        ///< steepness of the true ground, 0 to 60 degrees
     lod,          ///< the level of each triangle
     terrain,      ///< grass, rock, gravel and snow, by day and by night
+    plain,        ///< one colour, lit at the vertices: nothing a pixel but blending, for measuring
 };
 
 std::string_view to_string(Layer layer);

@@ -136,15 +136,19 @@ Result<GlName> Renderer::terrain_program(const Variant& variant) {
         defines += ground_->facts().has_sea ? "#define COVER\n#define SHORE\n" : "#define COVER\n";
         common += std::string(shader_text("light.glsl")) + std::string(shader_text("cover_block.glsl"));
     }
-    const std::string fragment = std::string(shader_text("ground.glsl")) +
+    const bool plain = variant.layer == Layer::plain;
+    if (plain) defines += "#define PLAIN\n";
+    const std::string ground(shader_text("ground.glsl"));
+    const std::string vertex = (plain ? ground : "") + std::string(shader_text("terrain.vert"));
+    const std::string fragment = ground +
                                  std::string(covered ? shader_text("cover.glsl") : std::string_view{}) +
                                  std::string(variant.ocean ? shader_text("shore.glsl") : std::string_view{}) +
-                                 std::string(shader_text("terrain.frag"));
+                                 std::string(shader_text(plain ? "plain.frag" : "terrain.frag"));
     auto program =
         build_program({.name = "terrain",
                        .defines = std::move(defines),
                        .common = common,
-                       .vertex = shader_text("terrain.vert"),
+                       .vertex = vertex,
                        .geometry = variant.wireframe ? shader_text("terrain.geom") : std::string_view{},
                        .fragment = fragment});
     if (!program) return program.error();
@@ -165,7 +169,7 @@ Result<void> Renderer::complete(const lod::View& view, const DrawSettings& setti
 
 Renderer::Variant Renderer::variant(const DrawSettings& settings) const {
     return {.layer = settings.layer,
-            .wireframe = settings.wireframe,
+            .wireframe = settings.wireframe && settings.layer != Layer::plain,
             .sun_fixed = settings.sun.kind == SunSetting::Kind::time,
             .sky = !settings.background,
             .ocean = settings.ocean.kind != OceanKind::off && ground_->facts().has_sea,

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -65,6 +66,42 @@ TEST(Colours, HillshadeIsTheCosineOfTheSunsAngle) {
             EXPECT_NEAR(centre(picture)[0], grey, 3) << rise << " " << sun;
         }
     }
+}
+
+// With a vertex at every post, light at the vertices is light at the pixels.
+TEST(Colours, PlainGroundIsLitAtItsVertices) {
+    constexpr std::array<double, 3> kPlain{0.72, 0.68, 0.60};
+    viewer::ViewState how;
+    how.method = viewer::Method::full;
+    for (const double rise : {-0.5, 0.0, 0.5}) {
+        Studio studio(plane(rise));
+        for (const char* sun : {"90,30", "0,60", "2026-03-20T23:00:00Z"}) {
+            const auto setting = *viewer::parse_sun(sun);
+            const auto camera = above_looking_down(studio.terrain(), 64, 64, 3000);
+            const auto draw = [&](Layer layer) {
+                return centre(
+                    studio.draw(camera, {.layer = layer, .sun = setting, .background = kMagenta}, how));
+            };
+            const double lit = (draw(Layer::hillshade)[0] / 255.0 - 0.06) / 0.94;  // by day
+            const double shade = 0.32 + 0.12 / std::sqrt(1 + rise * rise) + 0.75 * lit;
+            const auto plain = draw(Layer::plain);
+            for (std::size_t i = 0; i < 3; ++i)
+                EXPECT_NEAR(plain[i], std::min(255.0, 255 * kPlain[i] * shade), 3) << rise << " " << sun;
+        }
+    }
+}
+
+TEST(Colours, PlainGroundHasHolesWhereTheDataHas) {
+    const auto frame = geographic_frame(65, 65);
+    Studio studio(make_terrain(frame, make_heights(frame, [](int column, int) {
+                                   return column < 32 ? 100.0 : std::numeric_limits<double>::quiet_NaN();
+                               })));
+    const auto at = [&](int column) {
+        return centre(studio.draw(above_looking_down(studio.terrain(), column, 32, 200, 20, 20),
+                                  {.layer = Layer::plain, .background = kMagenta}));
+    };
+    EXPECT_FALSE(is_magenta(at(20)));
+    EXPECT_TRUE(is_magenta(at(44)));
 }
 
 TEST(Colours, ExaggerationSteepensTheShade) {

@@ -8,6 +8,9 @@ out gl_PerVertex {
 
 out Surface {
     vec2 grid;  // column and row
+#ifdef PLAIN
+    vec3 colour;  // lit here
+#else
     float haze;
     flat float level;
 #ifdef SUN_FIXED
@@ -15,6 +18,7 @@ out Surface {
 #endif
 #ifdef COVER
     vec4 cover;  // metres from the cover's anchor; H of the snow line; how much towards the sun
+#endif
 #endif
 }
 surface;
@@ -38,6 +42,45 @@ float bisection_level(uvec2 at) {
     return max(0.0, 2.0 * (levels - float(zeros)) - (middle_of_square ? 1.0 : 0.0));
 }
 
+#ifdef SUN_FIXED
+// Along the grid's row, up its column, and up.
+vec3 sun_over(vec2 at) {
+#ifdef POLE
+    // The tangents of a sphere along x and y of its stereographic projection; that latitudes are conformal here turns
+    // them by 0.2 degrees at most.
+    vec2 p = frame.place.xy + at.yx * frame.place.zw;
+    float q = 2.0 / (1.0 + dot(p, p));
+    vec3 along_x = vec3(1.0 - q * p.x * p.x, -q * p.x * p.y, -POLE * q * p.x);
+    vec3 along_y = vec3(-q * p.x * p.y, 1.0 - q * p.y * p.y, -POLE * q * p.y);
+    vec3 up = vec3(q * p, POLE * (q - 1.0));
+    return vec3(dot(frame.sun.xyz, along_y), -POLE * dot(frame.sun.xyz, along_x), dot(frame.sun.xyz, up));
+#else
+    float lat = frame.place.y - at.y * frame.place.w;
+    float lon = frame.place.x + at.x * frame.place.z;
+    vec3 east = vec3(-sin(lon), cos(lon), 0.0);
+    vec3 up = vec3(cos(lat) * cos(lon), cos(lat) * sin(lon), sin(lat));
+    return vec3(dot(frame.sun.xyz, east), dot(frame.sun.xyz, cross(up, east)), dot(frame.sun.xyz, up));
+#endif
+}
+#endif
+
+#ifdef PLAIN
+// As terrain.frag lights a pixel, with the finest normal that is there.
+vec3 plain_colour(vec2 at) {
+    vec4 here = textureLod(posts, page_place(at, cell_at(at), 1.0).fine, 0.0);
+    here.xy /= max(here.a, 1e-3);
+    vec3 normal = normalize(vec3(here.xy * frame.surface.x, sqrt(max(1.0 - dot(here.xy, here.xy), 1e-6))));
+#ifdef SUN_FIXED
+    vec3 sun = normalize(sun_over(at));
+    float day = dimmed(smoothstep(-0.10, 0.15, sun.z));
+#else
+    vec3 sun = frame.sun.xyz;
+    float day = dimmed(frame.sun.w);
+#endif
+    return vec3(0.72, 0.68, 0.60) * ((0.32 + 0.12 * normal.z) * day + 0.75 * max(dot(normal, sun), 0.0));
+}
+#endif
+
 void main() {
     gl_Position = frame.clip_from_offset * vec4(offset, 1.0);
     vec2 at = vec2(post);
@@ -45,8 +88,10 @@ void main() {
     gl_ClipDistance[0] = frame.grid.x - at.x;
     gl_ClipDistance[1] = frame.grid.y - at.y;
     surface.grid = at;
+#ifdef PLAIN
+    surface.colour = plain_colour(at);
+#else
     surface.level = bisection_level(post);
-
     float way = length(offset);
     float rise = dot(offset, frame.eye_up.xyz);
     float sinking = (way * way - rise * rise) / (2.0 * 6371000.0);
@@ -61,20 +106,8 @@ void main() {
     vec2 from_anchor = (at - cover.anchor.xy) * vec2(cover.anchor.z, -cover.anchor.w);
     surface.cover = vec4(from_anchor, snow_line(latitude), toward_sun(offset));
 #endif
-#if defined(SUN_FIXED) && defined(POLE)
-    // The tangents of a sphere along x and y of its stereographic projection; that latitudes are conformal here turns
-    // them by 0.2 degrees at most.
-    vec2 p = frame.place.xy + at.yx * frame.place.zw;
-    float q = 2.0 / (1.0 + dot(p, p));
-    vec3 along_x = vec3(1.0 - q * p.x * p.x, -q * p.x * p.y, -POLE * q * p.x);
-    vec3 along_y = vec3(-q * p.x * p.y, 1.0 - q * p.y * p.y, -POLE * q * p.y);
-    vec3 up = vec3(q * p, POLE * (q - 1.0));
-    surface.sun = vec3(dot(frame.sun.xyz, along_y), -POLE * dot(frame.sun.xyz, along_x), dot(frame.sun.xyz, up));
-#elif defined(SUN_FIXED)
-    float lat = frame.place.y - at.y * frame.place.w;
-    float lon = frame.place.x + at.x * frame.place.z;
-    vec3 east = vec3(-sin(lon), cos(lon), 0.0);
-    vec3 up = vec3(cos(lat) * cos(lon), cos(lat) * sin(lon), sin(lat));
-    surface.sun = vec3(dot(frame.sun.xyz, east), dot(frame.sun.xyz, cross(up, east)), dot(frame.sun.xyz, up));
+#ifdef SUN_FIXED
+    surface.sun = sun_over(at);
+#endif
 #endif
 }
