@@ -76,6 +76,8 @@ std::optional<PeerOptions> parse_options(int argc, char** argv, const char* usag
             good = good && options.error_frames > 0;
         } else if (flag == "--full") {
             options.full = true;
+        } else if (flag == "--morph") {
+            options.morph = true;
         } else if (flag == "--tau") {
             options.tau_px = std::atof(value());
         } else if (flag == "--lod") {

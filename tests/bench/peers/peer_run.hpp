@@ -16,7 +16,8 @@ struct PeerOptions {
     int error_frames = 0;  ///< measured instead of timed
     bool full = false;     ///< every triangle: what reading back adds to errors
     double tau_px = 1;     ///< or the engine's own bound
-    std::string method;
+    bool morph = false;     ///< relevo alone; Ogre always does
+    std::string method = "soar";
 };
 
 /// Nothing where the arguments are wrong; then says how they should be. \param usage  of the program's own

@@ -1,0 +1,99 @@
+// Relevo on the path that all of these programs fly, as its window draws, in the layer `plain`: lit at the vertices.
+//
+//   relevo_peer SCENE [--lod soar|lstr] [--tau PX] [--morph] [--size WxH] [--frames N] [--errors N]
+
+#include <chrono>
+#include <optional>
+
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+
+#include "lod/lstr/chunk_file.hpp"
+#include "lod/oracle.hpp"
+#include "tests/bench/peers/peer_run.hpp"
+#include "viewer/mesher.hpp"
+#include "viewer/renderer.hpp"
+#include "viewer/window.hpp"
+
+namespace {
+
+using namespace relevo;
+
+template <class T>
+T must(Result<T> result) {
+    if (!result) throw std::runtime_error(result.error().message);
+    return *std::move(result);
+}
+void must(const Result<void>& result) {
+    if (!result) throw std::runtime_error(result.error().message);
+}
+
+/// The path over the middle of a scene, whose middle is the flat world's.
+lod::Camera camera_at(const lod::Terrain& terrain, double part, const peers::PeerOptions& options) {
+    const geo::GridFrame& frame = terrain.frame();
+    const geo::GridPosition middle{0.5 * (frame.columns - 1), 0.5 * (frame.rows - 1)};
+    const peers::Place eye = peers::eye_at(part);
+    const geo::GridPosition place{middle.column, middle.row - eye.y / frame.spacing(middle).row_m};
+    const geo::LatLon at = frame.lat_lon(place);
+    lod::Camera camera;
+    camera.eye = {at.lat, at.lon, {terrain.undulations().at(place) + eye.z}};
+    camera.pitch = geo::Degrees{peers::kPitchDegrees};
+    camera.fov = geo::Degrees{peers::kFovDegrees};
+    camera.width = options.width;
+    camera.height = options.height;
+    return camera;
+}
+
+int fly(const peers::PeerOptions& options) {
+    auto window = must(viewer::Window::create(options.width, options.height, "relevo_peer"));
+    glfwSwapInterval(0);
+    const double start = peers::seconds();
+    const auto scene = must(lod::Scene::open(options.input));
+    viewer::ViewState how;
+    how.method = must(viewer::parse_method(options.method));
+    how.tau_px = options.tau_px;
+    how.morph = options.morph;
+    auto terrain = must(lod::Terrain::open(scene, lod::ErrorMetric::bounded, {.fade_s = 0}));
+    if (how.method == viewer::Method::lstr) must(lod::provide_chunks(scene, terrain));
+    auto renderer = must(viewer::Renderer::create(
+        terrain, {.pyramid = terrain.pyramid().get(), .facts = viewer::ground_facts(scene.info())}));
+    const auto target = must(viewer::RenderTarget::create(options.width, options.height, 1));
+    viewer::Mesher mesher(terrain);
+    const viewer::DrawSettings settings{.layer = viewer::Layer::plain, .background = {{0.70F, 0.80F, 0.90F}}};
+
+    const peers::PeerProgram program{
+        fmt::format("relevo {} {:.3g}{}", options.method, options.tau_px, options.morph ? " morph" : ""),
+        [&](double part) -> peers::FrameFigures {
+            window.poll(0);
+            const lod::View view(camera_at(terrain, part, options));
+            const lod::Mesh& mesh = mesher.mesh(view, how);
+            renderer.upload(mesh);
+            const auto drawn = must(renderer.draw(view, settings, target));
+            target.show();
+            window.show();
+            return {static_cast<double>(mesh.triangles()), static_cast<double>(drawn.draw_calls)};
+        },
+        [&](double part) -> peers::PixelErrors {
+            const lod::View view(camera_at(terrain, part, options));
+            const auto error = lod::measure_error(terrain, view, *must(mesher.whole_mesh(view, how)));
+            if (!error) return {};
+            if (error->uncovered_posts > 0) throw std::runtime_error("the mesh has a hole");
+            return {error->max_px, error->p99_px, error->rms_px, error->posts + error->pixels};
+        }};
+    program.frame(0);
+    peers::run_peer(options, program, peers::seconds() - start);
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const auto options = peers::parse_options(argc, argv, "relevo_peer SCENE [--lod soar|lstr] [--tau PX] [--morph]");
+    if (!options) return 2;
+    try {
+        return fly(*options);
+    } catch (const std::exception& failure) {
+        fmt::print(stderr, "{}: {}\n", options->input, failure.what());
+        return 5;
+    }
+}
