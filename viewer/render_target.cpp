@@ -19,6 +19,17 @@ GlRenderbuffer renderbuffer(GLenum format, int samples, int width, int height) {
     return buffer;
 }
 
+/// Colour in the order that windows have: showing is then no more than copying, which a software renderer
+/// does six times as fast as converting. Only OpenGL's older call leaves the order to who fills it.
+GlTexture window_colour(int width, int height) {
+    GlTexture made(create_gl_texture(GL_TEXTURE_2D));
+    glBindTexture(GL_TEXTURE_2D, made.name());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, width, height, 0, GL_BGRA, GL_UNSIGNED_BYTE, nullptr);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    glBindTexture(GL_TEXTURE_2D, 0);
+    return made;
+}
+
 GlFramebuffer framebuffer(const GlRenderbuffer& colour, const GlRenderbuffer* depth) {
     auto made = GlFramebuffer::create();
     glNamedFramebufferRenderbuffer(made.name(), GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour.name());
@@ -46,9 +57,17 @@ Result<RenderTarget> RenderTarget::create(int width, int height, int samples) {
     const int drawn_samples = samples / made.widening_;
     const int drawn_width = made.draw_width();
 
-    made.drawn_colour_ = renderbuffer(GL_RGBA8, drawn_samples, drawn_width, height);
     made.depth_ = renderbuffer(GL_DEPTH_COMPONENT32F, drawn_samples, drawn_width, height);
-    made.drawn_ = framebuffer(made.drawn_colour_, &made.depth_);
+    if (drawn_samples == 1) {
+        made.shown_colour_ = window_colour(width, height);
+        made.drawn_ = GlFramebuffer::create();
+        glNamedFramebufferTexture(made.drawn_.name(), GL_COLOR_ATTACHMENT0, made.shown_colour_.name(), 0);
+        glNamedFramebufferRenderbuffer(made.drawn_.name(), GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER,
+                                       made.depth_.name());
+    } else {
+        made.drawn_colour_ = renderbuffer(GL_RGBA8, drawn_samples, drawn_width, height);
+        made.drawn_ = framebuffer(made.drawn_colour_, &made.depth_);
+    }
     bool whole = complete(made.drawn_);
     if (drawn_samples > 1) {
         made.resolved_colour_ = renderbuffer(GL_RGBA8, 1, drawn_width, height);
@@ -75,6 +94,7 @@ Result<RenderTarget> RenderTarget::create(int width, int height, int samples) {
 void RenderTarget::begin(float red, float green, float blue) const {
     glBindFramebuffer(GL_FRAMEBUFFER, drawn_.name());
     glViewport(0, 0, draw_width(), height_);
+    glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
     glDisable(GL_SCISSOR_TEST);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthMask(GL_TRUE);
@@ -85,6 +105,7 @@ void RenderTarget::begin(float red, float green, float blue) const {
 }
 
 void RenderTarget::resolve() const {
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     if (!resolved_) return;
     glBlitNamedFramebuffer(drawn_.name(), resolved_.name(), 0, 0, draw_width(), height_, 0, 0, draw_width(),
                            height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
@@ -108,16 +129,16 @@ void RenderTarget::read_into(Picture& picture, int x, int y) const {
     const int columns = std::min(width_, picture.width - x);
     const int rows = std::min(height_, picture.height - y);
     for (int row = 0; row < rows; ++row) {
-        // OpenGL's rows run upwards.
-        const std::uint8_t* from = pixels.data() + 4 * static_cast<std::size_t>(width_) *
-                                                       static_cast<std::size_t>(height_ - 1 - row);
+        const std::uint8_t* from =
+            pixels.data() + 4 * static_cast<std::size_t>(width_) * static_cast<std::size_t>(row);
         std::uint8_t* to = picture.pixel(x, y + row);
         for (int column = 0; column < columns; ++column, from += 4, to += 3) std::copy_n(from, 3, to);
     }
 }
 
 void RenderTarget::show() const {
-    glBlitNamedFramebuffer(finished(), 0, 0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT,
+    // The window's rows run upwards.
+    glBlitNamedFramebuffer(finished(), 0, 0, 0, width_, height_, 0, height_, width_, 0, GL_COLOR_BUFFER_BIT,
                            GL_NEAREST);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, width_, height_);
