@@ -21,7 +21,8 @@ inline std::vector<double> read_depth(int width, int height, double near, double
     for (std::size_t k = 0; k < stored.size(); ++k) {
         if (stored[k] >= 1) continue;
         const double z = 2 * static_cast<double>(stored[k]) - 1;
-        const std::size_t row = static_cast<std::size_t>(height) - 1 - k / columns;  // OpenGL's rows run upwards
+        const std::size_t row =
+            static_cast<std::size_t>(height) - 1 - k / columns;  // OpenGL's rows run upwards
         depth[row * columns + k % columns] =
             from_0 ? far * near / (far - z * (far - near)) : 2 * far * near / (far + near - z * (far - near));
     }

@@ -1,5 +1,5 @@
-// Irrlicht's terrain node on the path that all of these programs fly: its standard patches of 17 x 17 posts with
-// 5 levels of detail, lit at the vertices.
+// Irrlicht's terrain node on the path that all of these programs fly: its standard patches of 17 x 17 posts
+// with 5 levels of detail, lit at the vertices.
 //
 //   irrlicht_peer HEIGHTS.f32 [--size WxH] [--frames N] [--errors N] [--full]
 

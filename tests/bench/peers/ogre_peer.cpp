@@ -1,16 +1,15 @@
-// Ogre's terrain on the path that all of these programs fly, with batches of its usual size and a bound on its error
-// in pixels, lit at the vertices, morphing as it does.
+// Ogre's terrain on the path that all of these programs fly, with batches of its usual size and a bound on
+// its error in pixels, lit at the vertices, morphing as it does.
 //
 //   ogre_peer HEIGHTS.f32 [--tau MAX_PIXEL_ERROR] [--size WxH] [--frames N] [--errors N] [--full]
 
 #include <cmath>
 #include <memory>
 
-#include <fmt/format.h>
-
 #include <OGRE/Ogre.h>
 #include <OGRE/Terrain/OgreTerrain.h>
 #include <OGRE/Terrain/OgreTerrainMaterialGenerator.h>
+#include <fmt/format.h>
 
 #include "tests/bench/peers/depth_picture.hpp"
 #include "tests/bench/peers/peer_run.hpp"
@@ -24,7 +23,8 @@ Ogre::Vector3 in_engine(const Place& place) {
     return {static_cast<float>(place.x), static_cast<float>(place.z), static_cast<float>(-place.y)};
 }
 
-// The engine keeps normals in a texture. Vertices of a level that is about to go sink to where the next one is.
+// The engine keeps normals in a texture. Vertices of a level that is about to go sink to where the next one
+// is.
 constexpr const char* kVertex = R"(#version 120
 uniform mat4 to_clip;
 uniform vec2 morph;
@@ -151,8 +151,7 @@ int fly(const PeerOptions& options, const Heights& heights) {
     const double start = seconds();
     Ogre::TerrainGlobalOptions settings;
     settings.setMaxPixelError(options.full ? 0.0F : static_cast<float>(options.tau_px));
-    settings.setDefaultMaterialGenerator(
-        Ogre::TerrainMaterialGeneratorPtr(OGRE_NEW VertexLitGenerator));
+    settings.setDefaultMaterialGenerator(Ogre::TerrainMaterialGeneratorPtr(OGRE_NEW VertexLitGenerator));
     const auto terrain = std::make_unique<Ogre::Terrain>(scene);
     load(root, *terrain, heights);
 

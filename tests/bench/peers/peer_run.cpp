@@ -29,12 +29,14 @@ std::string measured(const PeerOptions& options, const PeerProgram& program) {
         const PixelErrors one = program.errors((k + 0.5) / options.error_frames);
         all.max_px = std::max(all.max_px, one.max_px);
         all.p99_px = std::max(all.p99_px, one.p99_px);
+        all.oracle_max_px = std::max(all.oracle_max_px, one.oracle_max_px);
         sum2 += one.rms_px * one.rms_px;
         all.pixels += one.pixels;
     }
     all.rms_px = std::sqrt(sum2 / options.error_frames);
-    return fmt::format(R"("error_frames": {}, "max_px": {:.3f}, "p99_px": {:.3f}, "rms_px": {:.4f}, "pixels": {})",
-                       options.error_frames, all.max_px, all.p99_px, all.rms_px, all.pixels);
+    return fmt::format(
+        R"("error_frames": {}, "max_px": {:.3f}, "p99_px": {:.3f}, "rms_px": {:.4f}, "pixels": {}, "oracle_max_px": {:.3f})",
+        options.error_frames, all.max_px, all.p99_px, all.rms_px, all.pixels, all.oracle_max_px);
 }
 
 std::string timed(const PeerOptions& options, const PeerProgram& program) {
@@ -48,8 +50,9 @@ std::string timed(const PeerOptions& options, const PeerProgram& program) {
         sum.draws += one.draws;
     }
     const double took = seconds() - start;
-    return fmt::format(R"("frames": {}, "frames_s": {:.2f}, "triangles": {:.0f}, "draws": {:.1f})", options.frames,
-                       options.frames / took, sum.triangles / options.frames, sum.draws / options.frames);
+    return fmt::format(R"("frames": {}, "frames_s": {:.2f}, "triangles": {:.0f}, "draws": {:.1f})",
+                       options.frames, options.frames / took, sum.triangles / options.frames,
+                       sum.draws / options.frames);
 }
 
 }  // namespace

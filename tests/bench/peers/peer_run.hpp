@@ -16,7 +16,7 @@ struct PeerOptions {
     int error_frames = 0;  ///< measured instead of timed
     bool full = false;     ///< every triangle: what reading back adds to errors
     double tau_px = 1;     ///< or the engine's own bound
-    bool morph = false;     ///< relevo alone; Ogre always does
+    bool morph = false;    ///< relevo alone; Ogre always does
     std::string method = "soar";
 };
 
@@ -31,7 +31,7 @@ struct FrameFigures {
 /// What a program does at a part of the path, 0 to 1.
 struct PeerProgram {
     std::string name;
-    std::function<FrameFigures(double part)> frame;    ///< draws and shows
+    std::function<FrameFigures(double part)> frame;  ///< draws and shows
     std::function<PixelErrors(double part)> errors;  ///< draws and measures
 };
 

@@ -1,12 +1,18 @@
-// Relevo on the path that all of these programs fly, as its window draws, in the layer `plain`: lit at the vertices.
+// Relevo on the path that all of these programs fly, as its window draws, in the layer `plain`: lit at the
+// vertices.
 //
 //   relevo_peer SCENE [--lod soar|lstr] [--tau PX] [--morph] [--size WxH] [--frames N] [--errors N]
 
-#include <chrono>
-#include <optional>
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <vector>
 
+#define GLFW_INCLUDE_NONE  // epoxy declares OpenGL
 #include <GLFW/glfw3.h>
+#include <epoxy/gl.h>
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "lod/lstr/chunk_file.hpp"
 #include "lod/oracle.hpp"
@@ -44,6 +50,39 @@ lod::Camera camera_at(const lod::Terrain& terrain, double part, const peers::Pee
     return camera;
 }
 
+/// Of the picture that has just been drawn into what is current, as those of the other engines are measured.
+peers::PixelErrors drawn_errors(const lod::Terrain& terrain, const lod::View& view) {
+    const int width = view.camera().width;
+    const int height = view.camera().height;
+    std::vector<float> stored(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    glReadPixels(0, 0, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, stored.data());
+    const geo::GridFrame& frame = terrain.frame();
+    lod::TruePosts::Reader posts(terrain.posts());
+    const auto H_at = [&](int column, int row) { return static_cast<double>(posts.H(column, row)); };
+    std::vector<double> errors;
+    auto depth = stored.begin();
+    for (int y = 0; y < height; ++y) {  // targets' rows run downwards
+        for (int x = 0; x < width; ++x, ++depth) {
+            if (*depth == 0) continue;
+            const glm::dvec2 pixel(x + 0.5, y + 0.5);
+            const glm::dvec3 ray = view.ray(pixel);
+            const double away =
+                lod::View::kNearM / static_cast<double>(*depth) / glm::dot(ray, view.forward());
+            const geo::Geodetic drawn = geo::to_geodetic({view.eye().m + away * ray});
+            const geo::GridPosition at = frame.grid_position({drawn.lat, drawn.lon});
+            if (!(at.column >= 0 && at.row >= 0 && at.column <= frame.columns - 1 &&
+                  at.row <= frame.rows - 1))
+                continue;
+            const double N = terrain.undulations().at(at);
+            double best = std::numeric_limits<double>::infinity();
+            for (const double H : peers::surfaces_at(H_at, frame.columns, frame.rows, at.column, at.row))
+                best = std::min(best, glm::distance(pixel, view.pixel(frame.ecef(at, {N + H}) - view.eye())));
+            errors.push_back(best);
+        }
+    }
+    return peers::figures_of(errors);
+}
+
 int fly(const peers::PeerOptions& options) {
     auto window = must(viewer::Window::create(options.width, options.height, "relevo_peer"));
     glfwSwapInterval(0);
@@ -75,10 +114,15 @@ int fly(const peers::PeerOptions& options) {
         },
         [&](double part) -> peers::PixelErrors {
             const lod::View view(camera_at(terrain, part, options));
-            const auto error = lod::measure_error(terrain, view, *must(mesher.whole_mesh(view, how)));
-            if (!error) return {};
-            if (error->uncovered_posts > 0) throw std::runtime_error("the mesh has a hole");
-            return {error->max_px, error->p99_px, error->rms_px, error->posts + error->pixels};
+            const lod::Mesh& mesh = *must(mesher.whole_mesh(view, how));
+            const auto error = lod::measure_error(terrain, view, mesh);
+            if (!error || error->uncovered_posts > 0) throw std::runtime_error("the mesh has a hole");
+            renderer.upload(mesh);
+            must(renderer.complete(view, settings, {0, 0, options.width, options.height}));
+            must(renderer.draw(view, settings, target));
+            peers::PixelErrors errors = drawn_errors(terrain, view);
+            errors.oracle_max_px = error->max_px;
+            return errors;
         }};
     program.frame(0);
     peers::run_peer(options, program, peers::seconds() - start);
@@ -88,7 +132,8 @@ int fly(const peers::PeerOptions& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    const auto options = peers::parse_options(argc, argv, "relevo_peer SCENE [--lod soar|lstr] [--tau PX] [--morph]");
+    const auto options =
+        peers::parse_options(argc, argv, "relevo_peer SCENE [--lod soar|lstr] [--tau PX] [--morph]");
     if (!options) return 2;
     try {
         return fly(*options);
