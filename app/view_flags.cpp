@@ -59,7 +59,7 @@ void add_picture_flags(CLI::App& command, ViewFlags& flags) {
     add("--tau", flags.tau, "PX", "Largest error on the screen, pixels [1]");
     add("--morph", flags.morph, "on|off", "Vertices move in continuously");
     add("--exaggeration", flags.exaggeration, "X", "Of heights, in the picture only [1]");
-    add("--layer", flags.layer, "hypsometric|hillshade|slope|lod|plain|terrain",
+    add("--layer", flags.layer, "hypsometric|hillshade|slope|lod|terrain|plain",
         "What colours the ground [hypsometric]");
     add("--sun", flags.sun, "auto|AZ,EL|TIME", "Where the light comes from; TIME is ISO 8601 [auto: 315,45]");
     add("--ocean", flags.ocean, "auto|geoclipmap|radial|projected|off", "The sea's mesh [auto]");

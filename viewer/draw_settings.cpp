@@ -8,8 +8,8 @@ DrawSettings draw_settings(const ViewState& view) {
                           .exaggeration = view.exaggeration,
                           .sun = view.sun,
                           .ocean = view.ocean};
-    const bool has_sea = view.layer == Layer::hypsometric || view.layer == Layer::terrain;
-    if (view.layer == Layer::plain || (view.ocean.kind == OceanKind::automatic && !has_sea))
+    if (view.layer == Layer::plain || (view.ocean.kind == OceanKind::automatic &&
+                                       view.layer != Layer::hypsometric && view.layer != Layer::terrain))
         settings.ocean.kind = OceanKind::off;
     settings.ocean.error_px = view.tau_px;
     return settings;

@@ -61,10 +61,10 @@ std::string_view to_string(Layer layer) {
             return "hillshade";
         case Layer::slope:
             return "slope";
-        case Layer::plain:
-            return "plain";
         case Layer::terrain:
             return "terrain";
+        case Layer::plain:
+            return "plain";
         case Layer::lod:
             break;
     }
@@ -72,19 +72,19 @@ std::string_view to_string(Layer layer) {
 }
 
 Result<Layer> parse_layer(std::string_view text) {
-    for (const Layer layer : {Layer::hypsometric, Layer::hillshade, Layer::slope, Layer::lod, Layer::plain,
-                              Layer::terrain}) {
+    for (const Layer layer : {Layer::hypsometric, Layer::hillshade, Layer::slope, Layer::lod, Layer::terrain,
+                              Layer::plain}) {
         if (text == to_string(layer)) return layer;
     }
     if (text == "imagery") {
         return Error{
             ErrorKind::usage,
             fmt::format("the layer \"{}\" comes with a later version; hypsometric, hillshade, slope, lod, "
-                        "plain and terrain are here",
+                        "terrain and plain are here",
                         text)};
     }
     return Error{ErrorKind::usage,
-                 fmt::format("no layer \"{}\": hypsometric, hillshade, slope, lod, plain or terrain", text)};
+                 fmt::format("no layer \"{}\": hypsometric, hillshade, slope, lod, terrain or plain", text)};
 }
 
 std::vector<std::array<std::uint8_t, 4>> colour_ramp(Layer layer, const HeightSpan& span) {

@@ -15,8 +15,8 @@ enum class Layer {
     hillshade,    ///< light and shadow alone
     slope,        ///< steepness of the true ground, 0 to 60 degrees
     lod,          ///< the level of each triangle
-    plain,        ///< one colour, lit at the vertices: nothing a pixel but blending, for measuring
     terrain,      ///< grass, rock, gravel and snow, by day and by night
+    plain,        ///< one colour, lit at the vertices: nothing a pixel but blending, for measuring
 };
 
 std::string_view to_string(Layer layer);

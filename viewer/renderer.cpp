@@ -137,9 +137,11 @@ Result<GlName> Renderer::terrain_program(const Variant& variant) {
         common += std::string(shader_text("light.glsl")) + std::string(shader_text("cover_block.glsl"));
     }
     const bool plain = variant.layer == Layer::plain;
+    if (plain) defines += "#define PLAIN\n";
     const std::string ground(shader_text("ground.glsl"));
     const std::string vertex = (plain ? ground : "") + std::string(shader_text("terrain.vert"));
-    const std::string fragment = ground + std::string(covered ? shader_text("cover.glsl") : std::string_view{}) +
+    const std::string fragment = ground +
+                                 std::string(covered ? shader_text("cover.glsl") : std::string_view{}) +
                                  std::string(variant.ocean ? shader_text("shore.glsl") : std::string_view{}) +
                                  std::string(shader_text(plain ? "plain.frag" : "terrain.frag"));
     auto program =

@@ -45,7 +45,7 @@ TEST(ViewString, RoundTripsToTheLastBit) {
         view.metric = i % 3 == 0 ? lod::ErrorMetric::bounded : lod::ErrorMetric::incremental;
         view.morph = i % 5 == 0;
         view.exaggeration = any(0, 20);
-        view.layer = static_cast<Layer>(i % 5);
+        view.layer = static_cast<Layer>(i % 6);
         view.wireframe = i % 7 == 0;
         view.sun = *parse_sun(i % 3 == 0   ? "auto"
                               : i % 3 == 1 ? fmt::format("{},{}", any(0, 360), any(-90, 90))

@@ -8,8 +8,8 @@ out gl_PerVertex {
 
 out Surface {
     vec2 grid;  // column and row
-#if LAYER == 4  // plain: lit here
-    vec3 colour;
+#ifdef PLAIN
+    vec3 colour;  // lit here
 #else
     float haze;
     flat float level;
@@ -64,7 +64,7 @@ vec3 sun_over(vec2 at) {
 }
 #endif
 
-#if LAYER == 4
+#ifdef PLAIN
 // As terrain.frag lights a pixel, with the finest normal that is there.
 vec3 plain_colour(vec2 at) {
     vec4 here = textureLod(posts, page_place(at, cell_at(at), 1.0).fine, 0.0);
@@ -88,7 +88,7 @@ void main() {
     gl_ClipDistance[0] = frame.grid.x - at.x;
     gl_ClipDistance[1] = frame.grid.y - at.y;
     surface.grid = at;
-#if LAYER == 4
+#ifdef PLAIN
     surface.colour = plain_colour(at);
 #else
     surface.level = bisection_level(post);
