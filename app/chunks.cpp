@@ -96,9 +96,8 @@ Result<void> replace(const ChunksOptions& options) {
     if (!opened) return opened.error();
     const auto error_m = lod::replace_chunk(opened->scene, opened->terrain, *id, *geometry);
     if (!error_m) {
-        return Error{error_m.error().kind,
-                     fmt::format("{}, for node {}: {}", options.mesh.string(), options.node,
-                                 error_m.error().message)};
+        return Error{error_m.error().kind, fmt::format("{}, for node {}: {}", options.mesh.string(),
+                                                       options.node, error_m.error().message)};
     }
     if (options.json)
         std::cout << nlohmann::ordered_json{{"max_error_m", *error_m}}.dump(2) << '\n';

@@ -22,8 +22,8 @@ struct DrawSettings {
 };
 
 /// What a view says of it. Where it leaves the ocean open there is one in the tints and in the natural
-/// ground: other layers show values of the ground, which water would cover. The plain layer, which pixels cost nothing, never
-/// has one.
+/// ground: other layers show values of the ground, which water would cover. The plain layer, which pixels
+/// cost nothing, never has one.
 DrawSettings draw_settings(const ViewState& view);
 
 }  // namespace relevo::viewer

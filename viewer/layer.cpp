@@ -72,8 +72,8 @@ std::string_view to_string(Layer layer) {
 }
 
 Result<Layer> parse_layer(std::string_view text) {
-    for (const Layer layer : {Layer::hypsometric, Layer::hillshade, Layer::slope, Layer::lod, Layer::terrain,
-                              Layer::plain}) {
+    for (const Layer layer :
+         {Layer::hypsometric, Layer::hillshade, Layer::slope, Layer::lod, Layer::terrain, Layer::plain}) {
         if (text == to_string(layer)) return layer;
     }
     if (text == "imagery") {

@@ -81,7 +81,8 @@ double error_of(const PostField& field, const PlanarMesh& mesh, std::uint32_t ve
 }
 
 /// Of the ways to fill a vertex's place the first that is good enough, or the one with the least error; false
-/// where there is none. Of what is worse than the limit it is only known that it is off by at least `error_m`.
+/// where there is none. Of what is worse than the limit it is only known that it is off by at least
+/// `error_m`.
 bool best_plan(const PostField& field, const PlanarMesh& mesh, std::uint32_t vertex, double enough_m,
                double limit_m, PlanarMesh::Plan& best, double& error_m) {
     bool any = mesh.plan(vertex, best);

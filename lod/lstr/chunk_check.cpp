@@ -30,8 +30,7 @@ std::vector<OnSide> side_of(const ChunkMesh& mesh, Side side) {
 
 }  // namespace
 
-std::vector<std::string> check_chunks(const ChunkFile& chunks,
-                                      const std::function<void(double)>& progress) {
+std::vector<std::string> check_chunks(const ChunkFile& chunks, const std::function<void(double)>& progress) {
     std::vector<std::string> faults;
     // What awaits its eastern and its southern neighbour.
     std::map<ChunkId, std::vector<OnSide>> east, south;

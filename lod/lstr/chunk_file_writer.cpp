@@ -21,7 +21,8 @@ namespace {
 
 /// Are they the same file?
 bool is_at(const Descriptor& file, const std::filesystem::path& path) {
-    struct stat own {}, there {};
+    struct stat own {
+    }, there{};
     return fstat(file.number(), &own) == 0 && stat(path.c_str(), &there) == 0 && own.st_ino == there.st_ino &&
            own.st_dev == there.st_dev;
 }
@@ -75,8 +76,7 @@ Result<void> ChunkFileWriter::begin(const ChunkFileHead& head) {
     head_.finished = 0;
     std::fill(rows_.begin(), rows_.end(), ChunkRow{});
     there_ = 0;
-    if (ftruncate(file_.number(), 0) != 0 ||
-        ftruncate(file_.number(), static_cast<off_t>(head_.end)) != 0)
+    if (ftruncate(file_.number(), 0) != 0 || ftruncate(file_.number(), static_cast<off_t>(head_.end)) != 0)
         return failed();
     return write(0, &head_, sizeof(head_));
 }
@@ -185,8 +185,7 @@ Result<std::optional<ChunkMesh>> ChunkFileWriter::find(const ChunkId& id) const 
     const auto bytes = read_at(file_, row.offset, row.bytes, path_.string());
     const Error damaged{ErrorKind::damaged, fmt::format("{}: damaged; delete it", path_.string())};
     if (!bytes || start_of<16>(sha256_hex(*bytes)) != row.checksum) return damaged;
-    auto mesh =
-        decode_chunk(*bytes, id, ChunkErrors{head_.first_error_m}.of_level(id.level), path_.string());
+    auto mesh = decode_chunk(*bytes, id, ChunkErrors{head_.first_error_m}.of_level(id.level), path_.string());
     if (!mesh) return mesh.error();
     mesh->error_m = row.error_m;
     mesh->moved_error_m = row.moved_error_m;

@@ -135,8 +135,7 @@ Result<ChunkGroup> ChunkGroups::leaves(const ChunkId& parent) const {
         if (!has_data(id, terrain_.frame())) continue;
         const GridPoint first = id.first();
         const PyramidBlock at{0, first.column / Pyramid::kBlockCells, first.row / Pyramid::kBlockCells};
-        const auto block =
-            blocks_.get(at, kBlockBytes, [&] { return terrain_.pyramid()->read_heights(at); });
+        const auto block = blocks_.get(at, kBlockBytes, [&] { return terrain_.pyramid()->read_heights(at); });
         if (!block) return block.error();
         made.children[static_cast<std::size_t>(i)] = leaf(id, (*block)->filled, coarse ? &*coarse : nullptr);
     }

@@ -29,12 +29,13 @@ Result<void> make_chunk_file(const Scene& scene, const Terrain& terrain, const C
             return Error{ErrorKind::input, "stopped; what is done of chunks.bin is kept, and gone on with"};
         return file->put(terrain, mesh);
     };
-    const ChunkBuilder::Subtrees subtrees{
-        [&](const ChunkId& id) { return file->find(id); },
-        [&](const ChunkMesh& top) -> Result<void> {
-            if (auto done = file->put(terrain, top, ChunkRow::kDraft); !done) return done;
-            return file->commit();
-        }};
+    const ChunkBuilder::Subtrees subtrees{[&](const ChunkId& id) { return file->find(id); },
+                                          [&](const ChunkMesh& top) -> Result<void> {
+                                              if (auto done = file->put(terrain, top, ChunkRow::kDraft);
+                                                  !done)
+                                                  return done;
+                                              return file->commit();
+                                          }};
     if (auto done = ChunkBuilder(terrain, chunk_errors(terrain)).build(keep, subtrees); !done) return done;
     return file->finish();
 }

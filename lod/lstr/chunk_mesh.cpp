@@ -20,7 +20,8 @@ ChunkShape shape_of(const Terrain& terrain, const ChunkMesh& mesh) {
     ChunkShape shape{mesh.id, {}, mesh.triangles, mesh.error_m};
     shape.posts.reserve(mesh.vertices.size());
     for (const ChunkVertex& v : mesh.vertices)
-        shape.posts.push_back({v.at, v.H, terrain.position(v.at.column, v.at.row, static_cast<double>(v.H), 1)});
+        shape.posts.push_back(
+            {v.at, v.H, terrain.position(v.at.column, v.at.row, static_cast<double>(v.H), 1)});
     return shape;
 }
 

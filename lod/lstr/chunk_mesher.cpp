@@ -25,11 +25,7 @@ struct ChunkMesher::Workshop {
     std::unique_ptr<ChunkStore> store;
 
     Workshop(const Terrain& of, const ChunkSet& set, const ChunkOptions& asked)
-        : terrain(of),
-          chunks(set),
-          options(asked),
-          ranges(set, of.frame()),
-          selector(set, of.frame()) {}
+        : terrain(of), chunks(set), options(asked), ranges(set, of.frame()), selector(set, of.frame()) {}
 
     Result<void> prepare(const View& view, const RefineOptions& refine);
     void assemble(const View& view, const RefineOptions& refine, const std::vector<SelectedChunk>& selected);

@@ -77,8 +77,8 @@ void ChunkRanges::update_level(std::size_t k, double px_to_m, const RefineOption
             range.morph_from_m = range.until_m;
             if (options.morph) {
                 // In between the error grows in line with the distance, from the finer level's.
-                range.morph_from_m = std::max(farthest, std::max(kMorphFrom * range.until_m,
-                                                                 px_to_m * times * finer_m));
+                range.morph_from_m =
+                    std::max(farthest, std::max(kMorphFrom * range.until_m, px_to_m * times * finer_m));
                 range.morph_from_m = std::min(range.morph_from_m, kMorphAtMost * range.until_m);
             }
             level.reach_m[at] = range.until_m + node.box.diameter_m() +

@@ -39,10 +39,10 @@ Result<ChunkShape> shape_in(const Terrain& terrain, const ChunkId& id, const Chu
     for (const auto& [at, H] : geometry.vertices) {
         if (at.column < first.column || at.row < first.row || at.column > first.column + cells ||
             at.row > first.row + cells)
-            return wrong(fmt::format("the vertex at column {}, row {} is outside the node, which has columns "
-                                     "{} to {} and rows {} to {}",
-                                     at.column, at.row, first.column, first.column + cells, first.row,
-                                     first.row + cells));
+            return wrong(fmt::format(
+                "the vertex at column {}, row {} is outside the node, which has columns "
+                "{} to {} and rows {} to {}",
+                at.column, at.row, first.column, first.column + cells, first.row, first.row + cells));
         if (!std::isfinite(H)) return wrong("a vertex has no height");
         if (!heights.emplace(by_row(at), H).second)
             return wrong(fmt::format("two vertices are at column {}, row {}", at.column, at.row));
@@ -50,9 +50,8 @@ Result<ChunkShape> shape_in(const Terrain& terrain, const ChunkId& id, const Chu
     std::map<std::pair<int, int>, std::uint32_t> places;
     for (const auto& [at, H] : heights) {
         places.emplace(at, static_cast<std::uint32_t>(shape.posts.size()));
-        shape.posts.push_back({{at.second, at.first},
-                               H,
-                               terrain.position(at.second, at.first, static_cast<double>(H), 1)});
+        shape.posts.push_back(
+            {{at.second, at.first}, H, terrain.position(at.second, at.first, static_cast<double>(H), 1)});
     }
     std::int64_t area = 0;
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
@@ -62,9 +61,10 @@ Result<ChunkShape> shape_in(const Terrain& terrain, const ChunkId& id, const Chu
         const auto at = [&](std::size_t i) -> const GridPoint& { return shape.posts[placed[i]].at; };
         const std::int64_t twice = turn(at(0), at(1), at(2));
         if (twice <= 0)
-            return wrong(fmt::format("the triangle at column {}, row {} is not counter-clockwise seen from "
-                                     "above",
-                                     at(0).column, at(0).row));
+            return wrong(
+                fmt::format("the triangle at column {}, row {} is not counter-clockwise seen from "
+                            "above",
+                            at(0).column, at(0).row));
         area += twice;
         for (std::size_t i = 0; i < 3; ++i) {
             if (!edges.emplace(std::pair(placed[i], placed[(i + 1) % 3]), 0).second)

@@ -54,9 +54,8 @@ const std::vector<SelectedChunk>& ChunkSelector::select(const View& view, const 
                                                         const SelectionOptions& options,
                                                         const ChunkRanges& ranges, const ChunkStore& store) {
     const auto now = Clock::now();
-    const double passed = options.fade_s > 0
-                              ? std::chrono::duration<double>(now - last_time_).count() / options.fade_s
-                              : 1;
+    const double passed =
+        options.fade_s > 0 ? std::chrono::duration<double>(now - last_time_).count() / options.fade_s : 1;
     last_time_ = now;
     for (auto& [parent, fade] : fades_) fade -= passed;
     std::erase_if(fades_, [](const auto& entry) { return entry.second <= 0; });
@@ -128,9 +127,9 @@ void ChunkSelector::finish(SelectedChunk& chunk, const ChunkRanges& ranges) cons
         const bool inside = across.column >= 0 && across.row >= 0;
         chunk.closes[i] = inside && state_of(across.parent()) == State::drawn;
         // Both nodes at a side must find the same.
-        chunk.on_side[i] = {&ranges.on_side(chunk.id, side),
-                            inside ? std::max(chunk.inside.fade, fade_of(across.parent()))
-                                   : chunk.inside.fade};
+        chunk.on_side[i] = {
+            &ranges.on_side(chunk.id, side),
+            inside ? std::max(chunk.inside.fade, fade_of(across.parent())) : chunk.inside.fade};
     }
 }
 
@@ -143,7 +142,8 @@ std::vector<ChunkWish> ChunkSelector::wishes(const View& view, const RefineOptio
         const ChunkBox box = node.box.exaggerated(refine.exaggeration, node.most_H_m);
         const double distance_m = box.distance_m(view.eye().m);
         const double until_m = ranges.below(id).until_m;
-        const double swap_m = options.swap_radius_m > 0 ? options.swap_radius_m : options.swap_factor * until_m;
+        const double swap_m =
+            options.swap_radius_m > 0 ? options.swap_radius_m : options.swap_factor * until_m;
         if (distance_m > swap_m) return;
         seen = seen && distance_m <= std::min(until_m, options.view_distance_m) &&
                (!refine.cull || box.is_in(view));

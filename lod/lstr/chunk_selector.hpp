@@ -87,8 +87,8 @@ class ChunkSelector {
     std::vector<Level> levels_;
     std::vector<ChunkId> touched_;
     std::vector<SelectedChunk> selected_;
-    std::set<ChunkId> forced_;          // drawn in the last picture for want of finer ones
-    std::map<ChunkId, double> fades_;   // by the nodes whose children are coming in
+    std::set<ChunkId> forced_;         // drawn in the last picture for want of finer ones
+    std::map<ChunkId, double> fades_;  // by the nodes whose children are coming in
     Clock::time_point last_time_;
 };
 

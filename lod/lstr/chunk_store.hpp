@@ -37,8 +37,8 @@ class ChunkStore {
     static Result<std::unique_ptr<ChunkStore>> open(const ChunkGroups& groups, const ChunkId& above_root,
                                                     const ChunkStoreOptions& options);
 
-    /// Takes in what has been read; reads and keeps what is wished for, the most urgent first, as far as there
-    /// is room; lets go of the rest where there is none.
+    /// Takes in what has been read; reads and keeps what is wished for, the most urgent first, as far as
+    /// there is room; lets go of the rest where there is none.
     void start_frame(std::vector<ChunkWish> wishes);
 
     /// Null: not in memory.

@@ -39,8 +39,7 @@ Result<std::vector<double>> errors_in(const Terrain& terrain, const ChunkId& id,
             failures[at] = field.error();
             return;
         }
-        for (std::size_t k = 0; k < shapes.size(); ++k)
-            errors[at][k] = error_in(*field, shapes[k]);
+        for (std::size_t k = 0; k < shapes.size(); ++k) errors[at][k] = error_in(*field, shapes[k]);
     });
     std::vector<double> most(shapes.size());
     for (std::size_t i = 0; i < pieces; ++i) {

@@ -145,8 +145,7 @@ typedef int EightWhole __attribute__((vector_size(32)));
         const Eight dx = *reinterpret_cast<const EightFloats*>(x + k) - (from.x + step.x * along);
         const Eight dy = *reinterpret_cast<const EightFloats*>(y + k) - (from.y + step.y * along);
         const Eight dz = *reinterpret_cast<const EightFloats*>(z + k) - (from.z + step.z * along);
-        const Eight off =
-            *reinterpret_cast<const EightFloats*>(valid + k) * (dx * dx + dy * dy + dz * dz);
+        const Eight off = *reinterpret_cast<const EightFloats*>(valid + k) * (dx * dx + dy * dy + dz * dz);
         const EightWhole larger = (off > largest) & (along < static_cast<float>(count));
         largest = larger ? off : largest;
     }
@@ -235,8 +234,7 @@ double PostField::edge_error(const PlacedPost& a, const PlacedPost& b, double en
     return largest;
 }
 
-PostField::Worst PostField::worst(const PlacedTriangle& triangle, const GridPoint& first,
-                                  int cells) const {
+PostField::Worst PostField::worst(const PlacedTriangle& triangle, const GridPoint& first, int cells) const {
     const Plane plane(triangle, origin_);
     Worst worst{triangle[0]->at, 0};
     for_each_run(triangle, [&](int row, int first_column, int count) {

@@ -135,8 +135,9 @@ int run_build(const lod::Terrain& terrain) {
         "is off m: median | most |\n|---:|---:|---:|---:|---:|---:|---:|\n",
         s, peak_mib(), before_mib);
     for (std::size_t k = 1; k < levels.size() && levels[k].nodes > 0; ++k) {
-        fmt::print("| {} | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} |\n", k, levels[k].nodes, levels[k].vertices,
-                   levels[k].triangles, errors.of_level(static_cast<int>(k)), median(levels[k].errors_m),
+        fmt::print("| {} | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} |\n", k, levels[k].nodes,
+                   levels[k].vertices, levels[k].triangles, errors.of_level(static_cast<int>(k)),
+                   median(levels[k].errors_m),
                    *std::max_element(levels[k].errors_m.begin(), levels[k].errors_m.end()));
     }
     return 0;
@@ -159,7 +160,8 @@ int run_views(const lod::Terrain& terrain, int count) {
                 const lod::RefineOptions options{.tau_px = tau, .morph = morph};
                 for (int method = 0; method < 2; ++method) {
                     const auto make = [&] {
-                        return method == 0 ? lstr.whole_mesh(view, options) : soar.refine_whole(view, options);
+                        return method == 0 ? lstr.whole_mesh(view, options)
+                                           : soar.refine_whole(view, options);
                     };
                     if (!make()) return 1;
                     const lod::Mesh* mesh = nullptr;
