@@ -1,8 +1,11 @@
 #include "lod/lstr/chunk_mesher.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <map>
+#include <set>
+#include <thread>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -158,6 +161,57 @@ TEST(ChunkMesher, DrawsTerrainsOfALeafAndLess) {
             if (!error) continue;
             EXPECT_LE(error->max_px, 1) << side;
         }
+    }
+}
+
+TEST(ChunkMesher, LeavesNoCrackWhereReadsAreSlowAndRoomIsShort) {
+    const Trial trial(513, 400);
+    const geo::GridFrame& frame = trial.terrain.frame();
+    for (const double swap_radius_m : {0.0, 1500.0}) {
+        ChunkOptions options;
+        options.store = {.memory_bytes = 600 << 10, .threads = 1, .read_delay_s = 0.002};
+        options.selection.swap_radius_m = swap_radius_m;
+        options.selection.fade_s = 0.02;
+        ChunkMesher mesher(trial.terrain, trial.chunks, options);
+        std::set<std::size_t> sizes;
+        for (int i = 0; i < 300; ++i) {
+            const double part = i / 300.0;
+            const geo::LatLon at = frame.lat_lon({(0.1 + 0.8 * part) * frame.columns, 0.5 * frame.rows});
+            Camera camera;
+            camera.eye = {at.lat, at.lon, {700.0}};
+            camera.heading = geo::Degrees{360.0 * 3 * part};
+            camera.pitch = geo::Degrees{-15};
+            camera.width = 320;
+            camera.height = 180;
+            const auto mesh = mesher.mesh(View(camera), {.tau_px = 0.7, .morph = true});
+            ASSERT_TRUE(mesh);
+            ASSERT_EQ(count_t_vertices(**mesh), 0) << i;
+            ASSERT_EQ(count_torn_posts(**mesh), 0) << i;
+            ASSERT_LE(mesher.figures().store.resident_bytes, (600U << 10) + (200U << 10)) << i;
+            sizes.insert((*mesh)->triangles());
+        }
+        EXPECT_GT(mesher.figures().store.read_groups, 5U);
+        EXPECT_GT(sizes.size(), 10U);
+    }
+}
+
+TEST(ChunkMesher, ComesToTheWholeMeshOfAViewThatStays) {
+    const Trial trial(513, 400);
+    ChunkOptions options;
+    options.selection.fade_s = 0.01;
+    ChunkMesher paged(trial.terrain, trial.chunks, options);
+    ChunkMesher whole(trial.terrain, trial.chunks);
+    for (const Camera& camera : sample_views(trial.terrain, 5, 9, 320, 180)) {
+        const View view(camera);
+        const RefineOptions refine{.tau_px = 1, .morph = true};
+        std::size_t triangles = 0;
+        for (int i = 0; i < 2000; ++i) {
+            triangles = (*paged.mesh(view, refine))->triangles();
+            if (i > 20 && paged.figures().store.pending_groups == 0 && !paged.figures().fading) break;
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        triangles = (*paged.mesh(view, refine))->triangles();
+        EXPECT_EQ(triangles, (*whole.whole_mesh(view, refine))->triangles());
     }
 }
 

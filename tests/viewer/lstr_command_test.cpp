@@ -1,3 +1,4 @@
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -90,6 +91,68 @@ TEST_F(LstrCommand, AnotherScenesFileIsMadeAnew) {
     file.put('x');
     file.close();
     EXPECT_EQ(render("").status, 0);
+}
+
+TEST_F(LstrCommand, ANodeIsReplacedAndItsSidesMustFit) {
+    const std::string mesh = (folder_ / "node.obj").string();
+    ASSERT_EQ(relevo("chunks make " + scene_).status, 0);
+    ASSERT_EQ(relevo("chunks extract " + scene_ + " 2/0/0 " + mesh).status, 0);
+    const auto text = [&] {
+        std::ifstream file(mesh);
+        return std::string(std::istreambuf_iterator<char>(file), {});
+    }();
+    const auto replaced_by = [&](const std::string& changed) {
+        std::ofstream(mesh) << changed;
+        return relevo("chunks replace " + scene_ + " 2/0/0 " + mesh + " --json");
+    };
+    const auto same = replaced_by(text);
+    ASSERT_EQ(same.status, 0) << same.err;
+    EXPECT_GT(nlohmann::json::parse(same.out)["max_error_m"], 0);
+
+    // The first vertex is the node's corner: its neighbours have it where it was.
+    const auto first = text.find("\nv ") + 1;
+    const auto line_end = text.find('\n', first);
+    const std::string lifted = text.substr(0, first) + "v 0 0 9000" + text.substr(line_end);
+    const auto refused = replaced_by(lifted);
+    EXPECT_EQ(refused.status, 3);
+    EXPECT_NE(refused.err.find("side"), std::string::npos) << refused.err;
+
+    const auto holed = replaced_by(text.substr(0, text.rfind("f ")));
+    EXPECT_EQ(holed.status, 3);
+    EXPECT_NE(holed.err.find("cover"), std::string::npos) << holed.err;
+    EXPECT_EQ(replaced_by("v 0 0 x\n").status, 3);
+
+    // A tower inside is fine, its error is told, and the picture keeps to tau.
+    std::string tower = text;
+    for (std::size_t at = tower.find("\nv "); at != std::string::npos; at = tower.find("\nv ", at + 1)) {
+        int column = 0, row = 0;
+        float H = 0;
+        ASSERT_EQ(std::sscanf(tower.c_str() + at + 1, "v %d %d %f", &column, &row, &H), 3);
+        if (column % 128 == 0 || row % 128 == 0) continue;
+        const auto end = tower.find('\n', at + 1);
+        tower.replace(at + 1, end - at - 1,
+                      "v " + std::to_string(column) + " " + std::to_string(row) + " 9000");
+        break;
+    }
+    const auto raised = replaced_by(tower);
+    ASSERT_EQ(raised.status, 0) << raised.err;
+    EXPECT_GT(nlohmann::json::parse(raised.out)["max_error_m"], 1000);
+    EXPECT_EQ(relevo("check --files-only " + scene_).status, 0);
+    const auto run = render("--json --measure-error --tau 2");
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_LE(nlohmann::json::parse(run.out)["max_error_px"].get<double>(), 2);
+}
+
+TEST_F(LstrCommand, CheckReadsEveryNode) {
+    ASSERT_EQ(relevo("chunks make " + scene_).status, 0);
+    EXPECT_EQ(relevo("check --files-only " + scene_).status, 0);
+    std::fstream file(chunks_, std::ios::binary | std::ios::in | std::ios::out);
+    file.seekp(static_cast<std::streamoff>(fs::file_size(chunks_) - 5));
+    file.put(0x55);
+    file.close();
+    const auto run = relevo("check --files-only " + scene_);
+    EXPECT_EQ(run.status, 4) << run.err;
+    EXPECT_NE(run.err.find("chunks.bin"), std::string::npos) << run.err;
 }
 
 }  // namespace
