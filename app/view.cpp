@@ -123,6 +123,10 @@ Result<void> run(const WindowFlags& flags) {
                                   .frames = flags.frames,
                                   .play = std::move(play),
                                   .record = flags.record.value_or(""),
+                                  .chunks = {.store = {.memory_bytes = tiles->memory_bytes,
+                                                       .threads = tiles->threads,
+                                                       .read_delay_s = tiles->read_delay_s},
+                                             .selection = {}},
                                   .budget = *budget,
                                   .ui_scale = flags.ui_scale,
                                   .screenshot_folder = flags.screenshot_dir};

@@ -42,7 +42,7 @@ class Flight {
           window_(std::move(window)),
           ui_(std::move(ui)),
           renderer_(std::move(renderer)),
-          mesher_(terrain),
+          mesher_(terrain, options.chunks),
           controls_(terrain, heights, options.forward_m_s),
           sampler_(scene),
           budget_(options.budget, start.tau_px),
@@ -94,6 +94,10 @@ class Flight {
     /// Pieces of meshes and of what colours them that are being read.
     std::size_t pending() const {
         const lod::TileStore::Figures tiles = terrain_.tiles().figures();
+        if (view_.method == Method::lstr) {
+            const lod::ChunkStore::Figures nodes = mesher_.chunk_figures().store;
+            return renderer_.pending() + (nodes.memory_load <= 1 ? nodes.pending_groups : 0);
+        }
         const bool coming = view_.method == Method::soar && !tiles.starved();  // else they have no room
         return renderer_.pending() + (coming ? tiles.pending_tiles : 0);
     }
@@ -165,8 +169,10 @@ class Flight {
         draw_hud(view);
         // Without the wait for the screen, which a frame does not take longer for.
         if (options_.budget.frame_ms) gl_finish();
-        const FrameCost cost{ms_since(start), figures_.triangles,
-                             view_.method != Method::soar ? 0 : terrain_.tiles().figures().memory_load};
+        const double memory_load = view_.method == Method::soar   ? terrain_.tiles().figures().memory_load
+                                   : view_.method == Method::lstr ? mesher_.chunk_figures().store.memory_load
+                                                                  : 0;
+        const FrameCost cost{ms_since(start), figures_.triangles, memory_load};
         budget_.add(cost);
         within_budget_ += budget_.holds(cost);
         if (screenshot) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "geo/result.hpp"
+#include "lod/lstr/chunk_mesher.hpp"
 #include "lod/scene/scene.hpp"
 #include "lod/terrain.hpp"
 #include "viewer/eye_height.hpp"
@@ -26,6 +27,7 @@ struct FlightOptions {
     std::uint64_t frames = 0;             ///< closes after so many; 0: when the user does
     std::optional<FlightPath> play = {};  ///< replayed until it ends or the user steers or presses a key
     std::filesystem::path record = {};    ///< where what is flown is written in the end; empty: nowhere
+    lod::ChunkOptions chunks = {};        ///< how nodes are kept and loaded, with Method::lstr
     BudgetLimits budget = {};             ///< where it has limits, tau adapts to them
     double ui_scale = 0;                  ///< of letters and marks; 0: what the screen says
     std::filesystem::path screenshot_folder = ".";

@@ -49,6 +49,11 @@ class Mesher {
         return refiner_.refine_whole(view, options(state));
     }
 
+    /// Of the nodes of the LSTR; none where it has not drawn.
+    lod::ChunkMesher::Figures chunk_figures() const {
+        return chunk_mesher_ ? chunk_mesher_->figures() : lod::ChunkMesher::Figures{};
+    }
+
   private:
     using Clock = std::chrono::steady_clock;
 
