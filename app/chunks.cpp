@@ -87,6 +87,8 @@ Result<void> extract(const ChunksOptions& options) {
 Result<void> replace(const ChunksOptions& options) {
     const auto id = parse_node(options.node);
     if (!id) return id.error();
+    if (!std::filesystem::is_regular_file(options.mesh))
+        return Error{ErrorKind::input, fmt::format("{}: no such file", options.mesh.string())};
     std::ifstream in(options.mesh);
     const std::string text(std::istreambuf_iterator<char>(in), {});
     if (!in) return Error{ErrorKind::input, fmt::format("{}: cannot be read", options.mesh.string())};
@@ -115,6 +117,14 @@ Result<void> make_chunks(const lod::Scene& scene, const lod::Terrain& terrain, c
     return lod::make_chunk_file(scene, terrain, [&](double done) {
         bar(done);
         return !signals.stop_asked();
+    });
+}
+
+Result<void> provide_chunks(const lod::Scene& scene, lod::Terrain& terrain, const Common& common) {
+    const auto bar = progress_bar(common, "making the quadtree");
+    return lod::provide_chunks(scene, terrain, [&](double done) {
+        bar(done);
+        return true;
     });
 }
 

@@ -37,6 +37,9 @@ void add_export(CLI::App& program, Action& action);
 /// Makes a scene's chunks.bin, with a progress bar; Ctrl-C stops it, and it can be gone on with.
 Result<void> make_chunks(const lod::Scene& scene, const lod::Terrain& terrain, const Common& common);
 
+/// Gives a terrain its scene's chunks, which are made first where they are not there, with a progress bar.
+Result<void> provide_chunks(const lod::Scene& scene, lod::Terrain& terrain, const Common& common);
+
 /// A progress bar on stderr, for terminals only: call it with the part done, 0 to 1.
 std::function<void(double)> progress_bar(const Common& common, std::string what);
 

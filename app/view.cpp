@@ -9,7 +9,6 @@
 
 #include "app/command.hpp"
 #include "app/view_flags.hpp"
-#include "lod/lstr/chunk_making.hpp"
 #include "viewer/flight.hpp"
 
 namespace relevo::app {
@@ -99,12 +98,7 @@ Result<void> run(const WindowFlags& flags) {
     auto terrain = lod::Terrain::open(*scene, view->metric, *tiles);
     if (!terrain) return terrain.error();
     if (view->method == viewer::Method::lstr) {
-        const auto bar = progress_bar(flags.common, "making the quadtree");
-        const auto shown = [&bar](double done) {
-            bar(done);
-            return true;
-        };
-        if (auto done = lod::provide_chunks(*scene, *terrain, shown); !done) return done;
+        if (auto done = provide_chunks(*scene, *terrain, flags.common); !done) return done;
     }
     const viewer::EyeHeight heights(scene->geoid());
     if (!play) place_view(*view, flags.view, *scene, *terrain, heights, *size);

@@ -121,6 +121,7 @@ TEST_F(LstrCommand, ANodeIsReplacedAndItsSidesMustFit) {
     EXPECT_EQ(holed.status, 3);
     EXPECT_NE(holed.err.find("cover"), std::string::npos) << holed.err;
     EXPECT_EQ(replaced_by("v 0 0 x\n").status, 3);
+    EXPECT_EQ(relevo("chunks replace " + scene_ + " 2/0/0 " + scene_).status, 3);
 
     // A tower inside is fine, its error is told, and the picture keeps to tau.
     std::string tower = text;
