@@ -55,6 +55,10 @@ bool PlacedChunk::is_in(const View& view) const {
                        [&](const glm::dvec3& plane) { return glm::dot(plane, offset) <= radius_m; });
 }
 
+double PlacedChunk::distance_m(const glm::dvec3& eye) const {
+    return std::max(glm::distance(middle, eye) - radius_m, 0.0);
+}
+
 ChunkGroups::ChunkGroups(const Terrain& terrain, const ChunkSet& chunks, double exaggeration)
     : terrain_(terrain),
       chunks_(chunks),

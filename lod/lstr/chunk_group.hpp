@@ -29,6 +29,7 @@ struct PlacedChunk {
     double radius_m = 0;
 
     bool is_in(const View& view) const;
+    double distance_m(const glm::dvec3& eye) const;
 };
 
 /// The four children of a node: what is loaded and let go together. Those without data have no vertices.

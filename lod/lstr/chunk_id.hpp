@@ -26,7 +26,9 @@ struct ChunkId {
     int cells() const { return kLeafCells << level; }
     GridPoint first() const { return {column * cells(), row * cells()}; }
     ChunkId child(int i) const { return {level - 1, 2 * column + (i & 1), 2 * row + (i >> 1)}; }
-    ChunkId parent() const { return {level + 1, column / 2, row / 2}; }
+    ChunkId parent() const { return {level + 1, column >> 1, row >> 1}; }
+    /// Its place among its parent's children: child(i).
+    std::size_t sibling() const { return static_cast<std::size_t>((column & 1) + 2 * (row & 1)); }
 
     /// The node of the same level across a side. It may lie outside the grid.
     ChunkId beside(Side side) const {

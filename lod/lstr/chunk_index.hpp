@@ -24,6 +24,9 @@ class ChunkIndex {
 
     std::size_t size() const { return size_; }
 
+    /// Not there, has(), where the grid is smaller than two leaves.
+    ChunkId root() const { return {static_cast<int>(levels_.size()), 0, 0}; }
+
     bool has(const ChunkId& id) const {
         if (id.level < 1 || static_cast<std::size_t>(id.level) > levels_.size()) return false;
         const Level& level = of(id.level);

@@ -8,7 +8,6 @@
 #include <tbb/parallel_for.h>
 
 #include "lod/lstr/chunk_group.hpp"
-#include "lod/lstr/chunk_ranges.hpp"
 
 namespace relevo::lod {
 
@@ -16,7 +15,6 @@ struct ChunkMesher::Workshop {
     const Terrain& terrain;
     const ChunkSet& chunks;
     ChunkOptions options;
-    ChunkRanges ranges;
     ChunkSelector selector;
     Mesh mesh;
     int drawn = 0;
@@ -25,14 +23,14 @@ struct ChunkMesher::Workshop {
     std::unique_ptr<ChunkStore> store;
 
     Workshop(const Terrain& of, const ChunkSet& set, const ChunkOptions& asked)
-        : terrain(of), chunks(set), options(asked), ranges(set, of.frame()), selector(set, of.frame()) {}
+        : terrain(of), chunks(set), options(asked), selector(set, of.frame()) {}
 
-    Result<void> prepare(const View& view, const RefineOptions& refine);
-    void assemble(const View& view, const RefineOptions& refine, const std::vector<SelectedChunk>& selected);
+    Result<void> prepare(const RefineOptions& refine);
+    void assemble(const View& view, const std::vector<SelectedChunk>& selected);
 };
 
-/// Makes the store for an exaggeration, and the ranges for a view.
-Result<void> ChunkMesher::Workshop::prepare(const View& view, const RefineOptions& refine) {
+/// Makes the store for an exaggeration.
+Result<void> ChunkMesher::Workshop::prepare(const RefineOptions& refine) {
     if (!store || exaggeration != refine.exaggeration) {
         store.reset();
         groups = std::make_unique<ChunkGroups>(terrain, chunks, refine.exaggeration);
@@ -42,7 +40,6 @@ Result<void> ChunkMesher::Workshop::prepare(const View& view, const RefineOption
         store = *std::move(opened);
         exaggeration = refine.exaggeration;
     }
-    ranges.update(view, refine);
     return {};
 }
 
@@ -70,8 +67,7 @@ void close_side(const std::vector<SideVertex>& side, const Add& add) {
 
 }  // namespace
 
-void ChunkMesher::Workshop::assemble(const View& view, const RefineOptions& refine,
-                                     const std::vector<SelectedChunk>& selected) {
+void ChunkMesher::Workshop::assemble(const View& view, const std::vector<SelectedChunk>& selected) {
     std::vector<std::size_t> first_vertex(selected.size() + 1);
     std::vector<std::size_t> first_triangle(selected.size() + 1);
     for (std::size_t i = 0; i < selected.size(); ++i) {
@@ -91,21 +87,18 @@ void ChunkMesher::Workshop::assemble(const View& view, const RefineOptions& refi
         const SelectedChunk& node = selected[i];
         const PlacedChunk& chunk = *node.chunk;
         MeshVertex* vertices = mesh.vertices.data() + first_vertex[i];
-        const auto place = [&](std::size_t v, const ChunkMotion& motion) {
+        const auto place = [&](std::size_t v, double moved) {
             const PlacedChunk::Vertex& vertex = chunk.vertices[v];
             glm::dvec3 offset = to_origin + frame.unit_m * glm::dvec3(vertex.at);
-            if (refine.morph && vertex.rise_m != 0) {
-                const double moved = motion.moved(glm::length(offset));
-                if (moved > 0)
-                    offset += (moved * static_cast<double>(vertex.rise_m)) * up_at(frame.place(vertex.at));
-            }
+            if (moved > 0 && vertex.rise_m != 0)
+                offset += (moved * static_cast<double>(vertex.rise_m)) * up_at(frame.place(vertex.at));
             vertices[v] = {static_cast<float>(offset.x), static_cast<float>(offset.y),
                            static_cast<float>(offset.z), vertex.column, vertex.row};
         };
-        for (std::size_t v = 0; v < chunk.vertices.size(); ++v) place(v, node.inside);
+        for (std::size_t v = 0; v < chunk.vertices.size(); ++v) place(v, node.moved);
         for (std::size_t side = 0; side < kSides; ++side) {
-            if (node.on_side[side] == node.inside) continue;
-            for (const SideVertex& vertex : chunk.sides[side]) place(vertex.vertex, node.on_side[side]);
+            if (node.moved_on_side[side] == node.moved) continue;
+            for (const SideVertex& vertex : chunk.sides[side]) place(vertex.vertex, node.moved_on_side[side]);
         }
         const auto base = static_cast<std::uint32_t>(first_vertex[i]);
         std::uint32_t* index = mesh.indices.data() + 3 * first_triangle[i];
@@ -142,27 +135,27 @@ std::optional<Error> ChunkMesher::failure() const {
 
 Result<const Mesh*> ChunkMesher::mesh(const View& view, const RefineOptions& options) {
     Workshop& shop = *workshop_;
-    if (auto done = shop.prepare(view, options); !done) return done.error();
+    if (auto done = shop.prepare(options); !done) return done.error();
     const SelectionOptions& selection = shop.options.selection;
-    shop.store->start_frame(shop.selector.wishes(view, options, selection, shop.ranges));
-    shop.assemble(view, options, shop.selector.select(view, options, selection, shop.ranges, *shop.store));
+    shop.store->start_frame(shop.selector.wish(view, options, selection));
+    shop.assemble(view, shop.selector.select(view, options, selection, *shop.store));
     return &shop.mesh;
 }
 
 Result<const Mesh*> ChunkMesher::whole_mesh(const View& view, const RefineOptions& options) {
     Workshop& shop = *workshop_;
-    if (auto done = shop.prepare(view, options); !done) return done.error();
+    if (auto done = shop.prepare(options); !done) return done.error();
     SelectionOptions selection = shop.options.selection;
     selection.swap_factor = 1;
     selection.fade_s = 0;
-    std::vector<ChunkWish> wishes = shop.selector.wishes(view, options, selection, shop.ranges);
+    const std::vector<ChunkWish>& wishes = shop.selector.wish(view, options, selection);
     shop.store->start_frame(wishes);
     std::vector<ChunkId> missing;
     for (const ChunkWish& wish : wishes) {
         if (wish.now && shop.store->find(wish.parent) == nullptr) missing.push_back(wish.parent);
     }
     if (auto done = shop.store->load(missing); !done) return done.error();
-    shop.assemble(view, options, shop.selector.select(view, options, selection, shop.ranges, *shop.store));
+    shop.assemble(view, shop.selector.select(view, options, selection, *shop.store));
     return &shop.mesh;
 }
 

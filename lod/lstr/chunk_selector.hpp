@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdint>
@@ -9,7 +8,9 @@
 #include <set>
 #include <vector>
 
+#include "lod/lstr/chunk_index.hpp"
 #include "lod/lstr/chunk_ranges.hpp"
+#include "lod/lstr/chunk_splits.hpp"
 #include "lod/lstr/chunk_store.hpp"
 #include "lod/view.hpp"
 
@@ -27,20 +28,13 @@ struct SelectionOptions {
     bool front_to_back = true;
 };
 
-/// How far a node's vertices have moved to the coarser level.
-struct ChunkMotion {
-    const ChunkRange* range = nullptr;
-    double fade = 0;  ///< at least so far: 1 just come in, 0 there
-
-    double moved(double distance_m) const { return std::max(range->moved(distance_m), fade); }
-    friend bool operator==(const ChunkMotion&, const ChunkMotion&) = default;
-};
-
 struct SelectedChunk {
     ChunkId id;
     const PlacedChunk* chunk = nullptr;
-    ChunkMotion inside;
-    std::array<ChunkMotion, kSides> on_side;
+    /// How much of their way to the coarser level its vertices have moved, 0 to 1: inside, and on the sides,
+    /// where the node across finds the same.
+    double moved = 0;
+    std::array<double, kSides> moved_on_side{};
     std::array<bool, kSides> closes{};  ///< what is across the side is coarser
     double distance_m = 0;
 };
@@ -52,14 +46,13 @@ class ChunkSelector {
   public:
     ChunkSelector(const ChunkSet& chunks, const geo::GridFrame& frame);
 
-    /// What is selected points into the store and the ranges.
-    const std::vector<SelectedChunk>& select(const View& view, const RefineOptions& refine,
-                                             const SelectionOptions& options, const ChunkRanges& ranges,
-                                             const ChunkStore& store);
+    /// What a view wants, and what is in its swap sphere.
+    const std::vector<ChunkWish>& wish(const View& view, const RefineOptions& refine,
+                                       const SelectionOptions& options);
 
-    /// What the last view draws with, or would, and what is in its swap sphere.
-    std::vector<ChunkWish> wishes(const View& view, const RefineOptions& refine,
-                                  const SelectionOptions& options, const ChunkRanges& ranges) const;
+    /// Of the view that was wished for last. What is selected points into the store.
+    const std::vector<SelectedChunk>& select(const View& view, const RefineOptions& refine,
+                                             const SelectionOptions& options, const ChunkStore& store);
 
     /// Are nodes still coming in?
     bool is_fading() const { return !fades_.empty(); }
@@ -69,23 +62,23 @@ class ChunkSelector {
 
     /// What the frame under way knows of a node.
     enum class State : std::uint8_t { none, drawn, split };
-    struct Level {
-        int columns = 0;
-        int rows = 0;
-        std::vector<State> states;
-    };
 
-    State& state(const ChunkId& id);
-    State state_of(const ChunkId& id) const;
+    State state(const ChunkId& id) const { return index_.has(id) ? states_[index_.place(id)] : State::none; }
     bool may_split(const ChunkId& id) const;
     double fade_of(const ChunkId& parent) const;
-    void finish(SelectedChunk& chunk, const ChunkRanges& ranges) const;
+    void pass_time(double fade_s);
+    void draw_leaf(const ChunkId& id, const View& view, bool cull, double view_distance_m,
+                   const ChunkStore& store);
+    void finish(SelectedChunk& chunk) const;
 
     const ChunkSet& chunks_;
     geo::GridFrame frame_;
-    ChunkId root_;
-    std::vector<Level> levels_;
-    std::vector<ChunkId> touched_;
+    ChunkIndex index_;
+    ChunkRanges ranges_;
+    ChunkSplits splits_;
+    std::vector<ChunkWish> wishes_;
+    std::vector<State> states_;
+    std::vector<std::size_t> touched_;
     std::vector<SelectedChunk> selected_;
     std::set<ChunkId> forced_;         // drawn in the last picture for want of finer ones
     std::map<ChunkId, double> fades_;  // by the nodes whose children are coming in

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <thread>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "lod/oracle.hpp"
 #include "lod/sample_views.hpp"
 #include "lod/static_mesh/grid_triangle.hpp"
+#include "lod/surface_jump.hpp"
 #include "tests/lod/synthetic_terrain.hpp"
 
 namespace relevo::lod {
@@ -146,6 +148,53 @@ TEST(ChunkMesher, KeepsTheErrorAndLeavesNoCrack) {
                 EXPECT_EQ(error->uncovered_posts, 0U);
             }
         }
+    }
+}
+
+/// The largest jump of a descent in small steps.
+double largest_jump_px(const Trial& trial, bool morph, double tau_px) {
+    const geo::GridFrame& frame = trial.terrain.frame();
+    const geo::LatLon at = frame.lat_lon({0.4 * frame.columns, 0.6 * frame.rows});
+    ChunkMesher mesher(trial.terrain, trial.chunks);
+    std::optional<View> before;
+    Mesh mesh_before;
+    double worst_px = 0;
+    for (int i = 0; i < 400; ++i) {
+        Camera camera;
+        camera.eye = {at.lat, at.lon, {8000 - 19.0 * i}};
+        camera.pitch = geo::Degrees{-40};
+        camera.width = 320;
+        camera.height = 180;
+        const View view(camera);
+        const auto mesh = mesher.whole_mesh(view, {.tau_px = tau_px, .morph = morph});
+        if (!mesh) ADD_FAILURE();
+        if (before) {
+            const auto jump =
+                surface_jump(mesh_before, before->eye(), **mesh, view, frame.columns, frame.rows);
+            if (jump) worst_px = std::max(worst_px, jump->max_px);
+        }
+        before = view;
+        mesh_before = **mesh;
+    }
+    return worst_px;
+}
+
+TEST(ChunkMesher, MorphsWithoutJumps) {
+    const Trial trial(513, 513);
+    constexpr double kTau = 2;
+    const double with_px = largest_jump_px(trial, true, kTau);
+    const double without_px = largest_jump_px(trial, false, kTau);
+    // What is left: a finer mesh whose vertices lie on the coarser one has edges across the coarser one's.
+    EXPECT_LT(with_px, 0.3 * kTau);
+    EXPECT_LT(with_px, 0.8 * without_px);
+}
+
+TEST(ChunkMesher, DrawsTheRootAloneWhereThatIsGoodEnough) {
+    const Trial trial(513, 400);
+    ChunkMesher mesher(trial.terrain, trial.chunks);
+    for (const Camera& camera : sample_views(trial.terrain, 5, 3, 320, 180)) {
+        ASSERT_TRUE(mesher.whole_mesh(View(camera), {.tau_px = 1e4, .morph = false}));
+        EXPECT_LE(mesher.figures().drawn_nodes, 1);
     }
 }
 
