@@ -15,8 +15,8 @@
 #include "lod/mesh_checks.hpp"
 #include "lod/oracle.hpp"
 #include "lod/sample_views.hpp"
-#include "lod/static_mesh/grid_triangle.hpp"
 #include "lod/surface_jump.hpp"
+#include "tests/lod/brute_chunk_error.hpp"
 #include "tests/lod/synthetic_terrain.hpp"
 
 namespace relevo::lod {
@@ -64,37 +64,9 @@ TEST(Chunks, ErrorsAreThoseOfAllPosts) {
                 if (trial.chunks.node(id) == nullptr) continue;
                 const auto mesh = trial.chunks.mesh(id);
                 ASSERT_TRUE(mesh);
-                double worst = 0;
-                int seen = 0;
-                for (const IndexTriangle& t : (*mesh)->triangles) {
-                    const auto corner = [&](std::size_t i) -> const ChunkVertex& {
-                        return (*mesh)->vertices[t[i]];
-                    };
-                    const auto place = [&](const ChunkVertex& v) {
-                        return trial.terrain.position(v.at.column, v.at.row, static_cast<double>(v.H), 1);
-                    };
-                    const auto [left, right] =
-                        std::minmax({corner(0).at.column, corner(1).at.column, corner(2).at.column});
-                    const auto [top, bottom] =
-                        std::minmax({corner(0).at.row, corner(1).at.row, corner(2).at.row});
-                    const double area = static_cast<double>(turn(corner(0).at, corner(1).at, corner(2).at));
-                    ASSERT_GT(area, 0);
-                    for (int y = top; y <= std::min(bottom, 199); ++y) {
-                        for (int x = left; x <= right; ++x) {
-                            const double a =
-                                static_cast<double>(turn(corner(1).at, corner(2).at, {x, y})) / area;
-                            const double b =
-                                static_cast<double>(turn(corner(2).at, corner(0).at, {x, y})) / area;
-                            if (a < 0 || b < 0 || a + b > 1) continue;
-                            const glm::dvec3 drawn =
-                                a * place(corner(0)) + b * place(corner(1)) + (1 - a - b) * place(corner(2));
-                            worst = std::max(worst, glm::distance(drawn, trial.terrain.position(x, y, 1)));
-                            ++seen;
-                        }
-                    }
-                }
-                EXPECT_GT(seen, 0);
-                EXPECT_LE(worst, (*mesh)->error_m) << level << " " << column << " " << row;
+                const double worst_m = test::brute_error_m(trial.terrain, **mesh);
+                EXPECT_GE(worst_m, 0);
+                EXPECT_LE(worst_m, (*mesh)->error_m) << level << " " << column << " " << row;
             }
         }
     }
