@@ -25,9 +25,8 @@ struct Edge {
     int uses = 0;
 };
 
-}  // namespace
-
-int count_t_vertices(const Mesh& mesh) {
+/// By edge_key.
+std::unordered_map<std::uint64_t, Edge> edges_of(const Mesh& mesh) {
     std::unordered_map<std::uint64_t, Edge> edges;
     edges.reserve(mesh.indices.size());
     const auto post = [&](std::size_t i) {
@@ -38,10 +37,16 @@ int count_t_vertices(const Mesh& mesh) {
         for (std::size_t k = 0; k < 3; ++k) {
             const GridPoint a = post(3 * t + k);
             const GridPoint b = post(3 * t + (k + 1) % 3);
-            Edge& edge = edges.try_emplace(edge_key(a, b), Edge{a, b}).first->second;
-            ++edge.uses;
+            ++edges.try_emplace(edge_key(a, b), Edge{a, b}).first->second.uses;
         }
     }
+    return edges;
+}
+
+}  // namespace
+
+int count_t_vertices(const Mesh& mesh) {
+    const auto edges = edges_of(mesh);
     int count = 0;
     for (const auto& [key, edge] : edges) {
         const bool has_middle =
@@ -51,6 +56,17 @@ int count_t_vertices(const Mesh& mesh) {
         if (edges.contains(edge_key(edge.from, middle)) || edges.contains(edge_key(middle, edge.to))) ++count;
     }
     return count;
+}
+
+int count_open_edges(const Mesh& mesh, int columns, int rows) {
+    const auto edges = edges_of(mesh);
+    return static_cast<int>(std::count_if(edges.begin(), edges.end(), [&](const auto& entry) {
+        const auto& [from, to, uses] = entry.second;
+        const bool on_border = (from.column <= 0 && to.column <= 0) || (from.row <= 0 && to.row <= 0) ||
+                               (from.column >= columns - 1 && to.column >= columns - 1) ||
+                               (from.row >= rows - 1 && to.row >= rows - 1);
+        return uses == 1 && !on_border;
+    }));
 }
 
 int count_torn_posts(const Mesh& mesh) {

@@ -81,6 +81,7 @@ PlacedChunk ChunkGroups::placed(const ChunkMesh& mesh) const {
     PlacedChunk made;
     made.triangles = std::make_shared<const std::vector<IndexTriangle>>(mesh.triangles);
     made.sides = mesh.sides;
+    made.seams = seam_edges(mesh.triangles, mesh.sides);
     made.vertices.reserve(mesh.vertices.size());
     for (const ChunkVertex& vertex : mesh.vertices) add(made, vertex);
     enclose(frame_, made);
@@ -164,6 +165,7 @@ Result<ChunkGroup> ChunkGroups::load(const ChunkId& parent) const {
     for (const PlacedChunk& child : made.children) {
         made.bytes += sizeof(PlacedChunk) + child.vertices.size() * sizeof(PlacedChunk::Vertex);
         for (const auto& side : child.sides) made.bytes += side.size() * sizeof(SideVertex);
+        made.bytes += child.seams.size() * sizeof(SeamEdge);
         if (child.triangles && child.triangles != leaf_triangles_)
             made.bytes += child.triangles->size() * sizeof(IndexTriangle);
     }

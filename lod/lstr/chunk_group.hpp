@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geo/result.hpp"
+#include "lod/lstr/chunk_seams.hpp"
 #include "lod/lstr/chunk_set.hpp"
 #include "lod/lstr/fixed_frame.hpp"
 #include "lod/pyramid/block_cache.hpp"
@@ -25,7 +26,8 @@ struct PlacedChunk {
     std::vector<Vertex> vertices;
     std::shared_ptr<const std::vector<IndexTriangle>> triangles;  ///< leaves share theirs
     std::array<std::vector<SideVertex>, kSides> sides;
-    glm::dvec3 middle{0};  ///< of a sphere around all that it draws, ECEF
+    std::vector<SeamEdge> seams;  ///< none for leaves, which have no finer neighbours
+    glm::dvec3 middle{0};         ///< of a sphere around all that it draws, ECEF
     double radius_m = 0;
 
     bool is_in(const View& view) const;

@@ -1,5 +1,7 @@
 #include "lod/lstr/chunk_mesher.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -53,19 +55,30 @@ glm::dvec3 up_at(const glm::dvec3& ecef) {
     return glm::normalize(ecef / glm::dvec3(1, 1, kAxes2));
 }
 
-/// Triangles that close a side: between two posts that the coarser neighbour has too, a fan from the first of
-/// them. Calls add(a, b, c).
-template <class Add>
-void close_side(const std::vector<SideVertex>& side, const Add& add) {
-    std::uint32_t last_kept = 0;
-    std::uint32_t last = 0;
-    bool open = false;
-    for (const SideVertex& at : side) {
-        if (open) add(last_kept, last, at.vertex);
-        open = !at.kept;
-        if (at.kept) last_kept = at.vertex;
-        last = at.vertex;
+constexpr std::array<Side, kSides> kOpposite{Side::east, Side::west, Side::south, Side::north};
+
+/// Calls visit(finer node, its vertex) for those of the finer nodes across a side that the node has not,
+/// along the side.
+template <class Visit>
+void for_each_finer(const ChunkGroup& across, Side side, const Visit& visit) {
+    const Side facing = kOpposite[static_cast<std::size_t>(side)];
+    constexpr std::array<std::array<std::size_t, 2>, kSides> kFacing{{{0, 2}, {1, 3}, {0, 1}, {2, 3}}};
+    for (const std::size_t child : kFacing[static_cast<std::size_t>(facing)]) {
+        const PlacedChunk& node = across.children[child];
+        for (const SideVertex& on : node.sides[static_cast<std::size_t>(facing)]) {
+            if (!on.kept) visit(node.vertices[on.vertex]);
+        }
     }
+}
+
+std::size_t count_finer(const SelectedChunk& node) {
+    std::size_t count = 0;
+    for (std::size_t side = 0; side < kSides; ++side) {
+        if (node.finer[side] != nullptr)
+            for_each_finer(*node.finer[side], static_cast<Side>(side),
+                           [&](const PlacedChunk::Vertex&) { ++count; });
+    }
+    return count;
 }
 
 }  // namespace
@@ -74,13 +87,9 @@ void ChunkMesher::Workshop::assemble(const View& view, const std::vector<Selecte
     std::vector<std::size_t> first_vertex(selected.size() + 1);
     std::vector<std::size_t> first_triangle(selected.size() + 1);
     for (std::size_t i = 0; i < selected.size(); ++i) {
-        std::size_t triangles = selected[i].chunk->triangles->size();
-        for (std::size_t side = 0; side < kSides; ++side) {
-            if (!selected[i].closes[side]) continue;
-            for (const SideVertex& vertex : selected[i].chunk->sides[side]) triangles += vertex.kept ? 0 : 1;
-        }
-        first_vertex[i + 1] = first_vertex[i] + selected[i].chunk->vertices.size();
-        first_triangle[i + 1] = first_triangle[i] + triangles;
+        const std::size_t finer = count_finer(selected[i]);
+        first_vertex[i + 1] = first_vertex[i] + selected[i].chunk->vertices.size() + finer;
+        first_triangle[i + 1] = first_triangle[i] + selected[i].chunk->triangles->size() + finer;
     }
     mesh.vertices.resize(first_vertex.back());
     mesh.indices.resize(3 * first_triangle.back());
@@ -89,31 +98,44 @@ void ChunkMesher::Workshop::assemble(const View& view, const std::vector<Selecte
     const auto assemble_node = [&](std::size_t i) {
         const SelectedChunk& node = selected[i];
         const PlacedChunk& chunk = *node.chunk;
-        MeshVertex* vertices = mesh.vertices.data() + first_vertex[i];
-        const auto place = [&](std::size_t v, double moved) {
-            const PlacedChunk::Vertex& vertex = chunk.vertices[v];
+        MeshVertex* const vertices = mesh.vertices.data() + first_vertex[i];
+        const auto place = [&](const PlacedChunk::Vertex& vertex, double moved) -> MeshVertex {
             glm::dvec3 offset = to_origin + frame.unit_m * glm::dvec3(vertex.at);
             if (moved > 0 && vertex.rise_m != 0)
                 offset += (moved * static_cast<double>(vertex.rise_m)) * up_at(frame.place(vertex.at));
-            vertices[v] = {static_cast<float>(offset.x), static_cast<float>(offset.y),
-                           static_cast<float>(offset.z), vertex.column, vertex.row};
+            return {static_cast<float>(offset.x), static_cast<float>(offset.y), static_cast<float>(offset.z),
+                    vertex.column, vertex.row};
         };
-        for (std::size_t v = 0; v < chunk.vertices.size(); ++v) place(v, node.moved);
+        for (std::size_t v = 0; v < chunk.vertices.size(); ++v)
+            vertices[v] = place(chunk.vertices[v], node.moved);
         for (std::size_t side = 0; side < kSides; ++side) {
             if (node.moved_on_side[side] == node.moved) continue;
-            for (const SideVertex& vertex : chunk.sides[side]) place(vertex.vertex, node.moved_on_side[side]);
+            for (const SideVertex& on : chunk.sides[side])
+                vertices[on.vertex] = place(chunk.vertices[on.vertex], node.moved_on_side[side]);
         }
-        const auto base = static_cast<std::uint32_t>(first_vertex[i]);
-        std::uint32_t* index = mesh.indices.data() + 3 * first_triangle[i];
-        const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-            *index++ = base + a;
-            *index++ = base + b;
-            *index++ = base + c;
-        };
-        for (const auto& [a, b, c] : *chunk.triangles) add(a, b, c);
+        auto next = static_cast<std::uint32_t>(chunk.vertices.size());
+        SeamVertices seams;
         for (std::size_t side = 0; side < kSides; ++side) {
-            if (node.closes[side]) close_side(chunk.sides[side], add);
+            if (node.finer[side] == nullptr) continue;
+            const bool along_row =
+                static_cast<Side>(side) == Side::north || static_cast<Side>(side) == Side::south;
+            const auto along = [&](const PlacedChunk::Vertex& v) { return along_row ? v.column : v.row; };
+            std::uint32_t edge = 0;
+            for_each_finer(*node.finer[side], static_cast<Side>(side), [&](const PlacedChunk::Vertex& finer) {
+                while (along(chunk.vertices[chunk.sides[side][edge + 1].vertex]) < along(finer)) ++edge;
+                vertices[next] = place(finer, 1);
+                seams[side].push_back({edge, next++});
+            });
         }
+        std::uint32_t* const index = mesh.indices.data() + 3 * first_triangle[i];
+        const auto base = static_cast<std::uint32_t>(first_vertex[i]);
+        if (next > chunk.vertices.size()) {
+            stitch(*chunk.triangles, chunk.seams, seams, base, index);
+            return;
+        }
+        std::transform(&chunk.triangles->front()[0],
+                       &chunk.triangles->front()[0] + 3 * chunk.triangles->size(), index,
+                       [base](std::uint32_t v) { return base + v; });
     };
     if (first_vertex.back() < kWorthSharing) {
         for (std::size_t i = 0; i < selected.size(); ++i) assemble_node(i);

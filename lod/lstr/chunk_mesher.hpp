@@ -20,9 +20,8 @@ struct ChunkOptions {
 };
 
 /// Draws the nodes of a quadtree at the level of detail that a view asks for: the large-scale terrain
-/// renderer of the reference, with levels up to the root. Sides between nodes of different levels are closed
-/// by triangles that stand on the side's straight line, between the finer node's posts and those that both
-/// have: no crack, to the last bit.
+/// renderer of the reference, with levels up to the root. A node takes in what finer neighbours have on its
+/// sides: no crack, to the last bit.
 class ChunkMesher {
   public:
     /// Both must outlive the mesher.

@@ -26,7 +26,7 @@ const std::vector<ChunkWish>& ChunkSelector::wish(const View& view, const Refine
         const double reach = splits_.reach(node.id);
         if (options.swap_radius_m > 0 ? node.distance_m > options.swap_radius_m : reach > options.swap_factor)
             continue;
-        const bool now = reach < 1 && node.distance_m <= options.view_distance_m &&
+        const bool now = reach < 1 && node.distance_m <= refine.view_distance_m &&
                          seen.contains(node.id.parent()) && (!refine.cull || node.box.is_in(view));
         if (now) seen.insert(node.id);
         wishes_.push_back({node.id, now, reach});
@@ -79,14 +79,14 @@ const std::vector<SelectedChunk>& ChunkSelector::select(const View& view, const 
                 const PlacedChunk& leaf = store.find(id.parent())->children[id.sibling()];
                 if (refine.cull && !leaf.is_in(view)) continue;
                 const double distance_m = leaf.distance_m(view.eye().m);
-                if (distance_m <= options.view_distance_m) draw(id, distance_m);
+                if (distance_m <= refine.view_distance_m) draw(id, distance_m);
                 continue;
             }
             const ChunkNode& node = *chunks_.node(id);
             const ChunkBox box = node.box.exaggerated(refine.exaggeration, node.most_H_m);
             if (refine.cull && !box.is_in(view)) continue;
             const double distance_m = box.distance_m(view.eye().m);
-            if (distance_m > options.view_distance_m) continue;
+            if (distance_m > refine.view_distance_m) continue;
             const bool wanted = splits_.splits(id);
             const bool possible = wanted && store.find(id) != nullptr && may_split(id);
             if (wanted && !possible) forced.insert(id);
@@ -103,7 +103,7 @@ const std::vector<SelectedChunk>& ChunkSelector::select(const View& view, const 
         }
     }
     forced_ = std::move(forced);
-    for (SelectedChunk& chunk : selected_) finish(chunk);
+    for (SelectedChunk& chunk : selected_) finish(chunk, store);
     if (options.front_to_back) {
         std::sort(selected_.begin(), selected_.end(), [](const SelectedChunk& a, const SelectedChunk& b) {
             return std::pair(a.distance_m, a.id) < std::pair(b.distance_m, b.id);
@@ -112,17 +112,20 @@ const std::vector<SelectedChunk>& ChunkSelector::select(const View& view, const 
     return selected_;
 }
 
-void ChunkSelector::finish(SelectedChunk& chunk) const {
+void ChunkSelector::finish(SelectedChunk& chunk, const ChunkStore& store) const {
     const auto moved_below = [&](const ChunkId& parent) {
         return std::max(splits_.moved(parent), fade_of(parent));
     };
     chunk.moved = moved_below(chunk.id.parent());
     for (const Side side : {Side::west, Side::east, Side::north, Side::south}) {
         const auto i = static_cast<std::size_t>(side);
-        const ChunkId across = chunk.id.beside(side).parent();
-        chunk.closes[i] = state(across) == State::drawn;
-        chunk.moved_on_side[i] =
-            index_.has(across) ? std::max(chunk.moved, moved_below(across)) : chunk.moved;
+        const ChunkId across = chunk.id.beside(side);
+        const ChunkId coarser = across.parent();
+        chunk.moved_on_side[i] = chunk.moved;
+        if (state(coarser) == State::drawn) chunk.moved_on_side[i] = 1;
+        if (state(coarser) == State::split)
+            chunk.moved_on_side[i] = std::max(chunk.moved, moved_below(coarser));
+        if (state(across) == State::split) chunk.finer[i] = store.find(across);
     }
 }
 

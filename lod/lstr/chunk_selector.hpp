@@ -3,7 +3,6 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <set>
 #include <vector>
@@ -23,7 +22,6 @@ struct SelectionOptions {
     /// ...or, if it is not 0, to this one, of all levels. Smaller than it need be, the ground is coarse
     /// beyond.
     double swap_radius_m = 0;
-    double view_distance_m = std::numeric_limits<double>::infinity();  ///< farther nodes are not drawn
     double fade_s = 0.3;  ///< in which late nodes come in; 0: at once
     bool front_to_back = true;
 };
@@ -32,10 +30,11 @@ struct SelectedChunk {
     ChunkId id;
     const PlacedChunk* chunk = nullptr;
     /// How much of their way to the coarser level its vertices have moved, 0 to 1: inside, and on the sides,
-    /// where the node across finds the same.
+    /// where the node across finds the same. All of it where the node across is a coarser one.
     double moved = 0;
     std::array<double, kSides> moved_on_side{};
-    std::array<bool, kSides> closes{};  ///< what is across the side is coarser
+    /// The children of the node across, where these are drawn: they are finer.
+    std::array<const ChunkGroup*, kSides> finer{};
     double distance_m = 0;
 };
 
@@ -67,9 +66,7 @@ class ChunkSelector {
     bool may_split(const ChunkId& id) const;
     double fade_of(const ChunkId& parent) const;
     void pass_time(double fade_s);
-    void draw_leaf(const ChunkId& id, const View& view, bool cull, double view_distance_m,
-                   const ChunkStore& store);
-    void finish(SelectedChunk& chunk) const;
+    void finish(SelectedChunk& chunk, const ChunkStore& store) const;
 
     const ChunkSet& chunks_;
     geo::GridFrame frame_;

@@ -108,6 +108,7 @@ void Refiner::Workshop::prepare(const View& view, const RefineOptions& options) 
     test.morph = options.morph;
     test.moving = options.morph || tiles.is_fading();
     test.cull = options.cull;
+    test.view_distance_m = options.view_distance_m;
 }
 
 /// The grid's corners are always there.
@@ -148,7 +149,7 @@ bool Refiner::Workshop::reserve(Bench& bench) {
     return true;
 }
 
-/// Is a tile outside the picture? Adds the planes that it is wholly inside of.
+/// Is a tile outside the picture, or beyond the view distance? Adds the planes that it is wholly inside of.
 bool Refiner::Workshop::is_outside(const Tile& tile, unsigned& inside) const {
     const Tile::Sphere& sphere = tile.sphere();
     const double exaggeration = test.exaggeration;
@@ -164,6 +165,7 @@ bool Refiner::Workshop::is_outside(const Tile& tile, unsigned& inside) const {
         radius +=
             2 * std::abs(exaggeration - 1) * terrain.level_bounds()[static_cast<std::size_t>(level)].radius_m;
     }
+    if (glm::length(offset) - radius > test.view_distance_m) return true;
     for (unsigned k = 0; k < 4; ++k) {
         if ((inside >> k & 1) != 0) continue;
         const double distance = glm::dot(test.planes[k], offset);
@@ -198,7 +200,7 @@ void Refiner::Workshop::refine(Bench& bench, const TileStore::Resident& resident
                                Mesh::Indices& into, bool hand_out) {
     if (is_full || !reserve(bench)) return;
     const Tile& tile = resident.tile;
-    if (inside != kInsideAll && is_outside(tile, inside)) return;
+    if (is_outside(tile, inside)) return;
     tiles.use(resident);
     const TileGrid& grid = tiles.grid();
     const TileId id = tile.id();
@@ -333,7 +335,7 @@ const Mesh& Refiner::refine(const View& view, const RefineOptions& options) {
 void Refiner::Workshop::look_ahead(const TileStore::Resident& resident, unsigned inside) const {
     const Tile& tile = resident.tile;
     const TileId id = tile.id();
-    if (id.level == 0 || (inside != kInsideAll && is_outside(tile, inside))) return;
+    if (id.level == 0 || is_outside(tile, inside)) return;
     const Tile::Sphere& sphere = tile.sphere();
     const glm::dvec3 offset =
         terrain.position(sphere.post.column, sphere.post.row, sphere.H, test.exaggeration) - test.eye;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 
 #include "geo/result.hpp"
@@ -16,6 +17,8 @@ struct RefineOptions {
     double exaggeration = 1;  ///< h = N + exaggeration H
     bool cull = true;         ///< leave out what is outside the picture
     bool parallel = true;     ///< on all cores
+    /// Tiles and nodes that begin farther away are left out, metres.
+    double view_distance_m = std::numeric_limits<double>::infinity();
 };
 
 /// View-dependent refinement by longest-edge bisection (Lindstrom & Pascucci 2002, "Terrain simplification

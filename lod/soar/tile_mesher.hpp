@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -23,6 +24,7 @@ struct FrameTest {
     double lambda_px = 0;
     double kappa = 0;
     double tau_min_px = 0;
+    double view_distance_m = std::numeric_limits<double>::infinity();
     bool cull = true;     // leave out what is outside the picture
     bool morph = false;   // vertices move in by their errors
     bool moving = false;  // some vertices are not at their exact places: the morph's, or those fading in

@@ -25,6 +25,17 @@ TEST(MeshChecks, FindATVertex) {
     EXPECT_EQ(count_t_vertices(mesh), 1);
 }
 
+TEST(MeshChecks, FindAnOpenEdge) {
+    EXPECT_EQ(count_open_edges(kSquare, 5, 5), 0);
+    EXPECT_EQ(count_open_edges(kSquare, 6, 5), 1) << "the right side is not the data's border";
+    Mesh mesh = kSquare;
+    mesh.vertices.push_back(vertex(1, 1));
+    mesh.indices = {0, 2, 1, 2, 4, 3, 4, 0, 3};  // the diagonal is split on one side alone, not at its middle
+    EXPECT_EQ(count_open_edges(mesh, 5, 5), 3);
+    mesh.indices.insert(mesh.indices.end(), {0, 4, 2});
+    EXPECT_EQ(count_open_edges(mesh, 5, 5), 0) << "closed by a triangle without an area";
+}
+
 TEST(MeshChecks, FindAPostDrawnTwice) {
     Mesh mesh = kSquare;
     mesh.vertices.push_back(vertex(2, 2));
