@@ -14,6 +14,10 @@ foreach(folder geo lod ingest output viewer)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION include/relevo FILES_MATCHING PATTERN "*.hpp")
 endforeach()
 
+if(RELEVO_VIEWER)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/relevo)
+endif()
+
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/relevo)
 install(EXPORT relevo-targets NAMESPACE relevo:: DESTINATION ${package_dir})
 configure_package_config_file(cmake/relevo-config.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/relevo-config.cmake

@@ -36,7 +36,8 @@ Result<Writer> load_writer() {
     const fs::path program = fs::read_symlink("/proc/self/exe", failed);
     for (const fs::path& place :
          {program.parent_path().parent_path() / RELEVO_MODULE_FROM_PROGRAM / RELEVO_PICTURE_MODULE,
-          fs::path(RELEVO_MODULE_FOLDER) / RELEVO_PICTURE_MODULE}) {
+          fs::path(RELEVO_MODULE_FOLDER) / RELEVO_PICTURE_MODULE,
+          fs::path(RELEVO_PICTURE_MODULE)}) {  // in the program's run path
         module = dlopen(place.c_str(), RTLD_NOW | RTLD_LOCAL);
         if (module != nullptr) break;
         const char* text = dlerror();
