@@ -103,10 +103,13 @@ Result<viewer::BenchOptions> read_options(const BenchFlags& flags) {
         if (!methods) return methods.error();
         options.methods = *methods;
     }
-    const auto tiles = tile_options(flags.view, 0.5);
+    // The same on every machine, busy or not: figures are compared.
+    const auto memory = flags.view.memory.value_or(std::uint64_t{1} << 30);
+    const lod::CacheSizes sizes = lod::cache_sizes({.cores = 4}, memory);
+    const auto tiles = tile_options(sizes, 0.5);
     if (!tiles) return tiles.error();
     options.tiles = *tiles;
-    options.ground_bytes = texel_bytes(flags.view);
+    options.ground_bytes = sizes.texel_bytes;
     const auto budget = read_budget(flags.budget);
     if (!budget) return budget.error();
     options.budget = *budget;

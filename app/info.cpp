@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/command.hpp"
+#include "app/machine_report.hpp"
 #include "lod/scene/scene.hpp"
 
 namespace relevo::app {
@@ -15,6 +17,7 @@ namespace {
 struct Settings {
     Common common;
     std::string scene;
+    bool machine = false;
 };
 
 /// What follows from a scene's description.
@@ -41,7 +44,7 @@ struct Derived {
     }
 };
 
-void print_json(const lod::SceneInfo& info, const Derived& derived) {
+nlohmann::json info_json(const lod::SceneInfo& info, const Derived& derived) {
     nlohmann::json json = lod::to_json(info);
     for (const char* only_on_disk : {"heights", "marks", "levels", "geoid", "block_side", "vertical_name"}) {
         json.erase(only_on_disk);
@@ -65,7 +68,7 @@ void print_json(const lod::SceneInfo& info, const Derived& derived) {
     json["bytes_per_post"] = derived.per_post(info.bytes());
     json["height_bytes_per_post"] = derived.per_post(derived.height_bytes);
     json["metric_bytes_per_post"] = derived.per_post(derived.metric_bytes);
-    fmt::print("{}\n", json.dump());
+    return json;
 }
 
 std::string degrees(double value, char positive, char negative) {
@@ -174,10 +177,15 @@ Result<void> show(const Settings& settings) {
     const auto scene = lod::Scene::open(settings.scene);
     if (!scene) return scene.error();
     const Derived derived(scene->info());
+    std::optional<MachineReport> machine;
+    if (settings.machine) machine = machine_report(settings.scene);
     if (settings.common.json) {
-        print_json(scene->info(), derived);
+        auto json = info_json(scene->info(), derived);
+        if (machine) json["machine"] = machine->json;
+        fmt::print("{}\n", json.dump());
     } else {
         print_text(settings.scene, scene->info(), derived);
+        if (machine) fmt::print("{}", machine->text);
     }
     return {};
 }
@@ -192,6 +200,8 @@ void add_info(CLI::App& program, Action& action) {
     command->add_option("scene", settings->scene, "A scene made by relevo ingest")
         ->required()
         ->type_name("SCENE");
+    command->add_flag("--machine", settings->machine,
+                      "Also what this machine has, and the caches that --memory auto takes for pictures");
     command->callback([settings, &action] { action = [settings] { return show(*settings); }; });
 }
 

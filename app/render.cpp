@@ -113,7 +113,8 @@ Result<void> run(const RenderFlags& flags) {
     if (!background) return background.error();
     if (auto known = viewer::check_picture_name(flags.output); !known) return known;
 
-    const auto tiles = tile_options(flags.view, 0);
+    const lod::CacheSizes sizes = lod::cache_sizes(lod::find_memory(), flags.view.memory);
+    const auto tiles = tile_options(sizes, 0);
     if (!tiles) return tiles.error();
 
     const auto scene = lod::Scene::open(flags.scene);
@@ -128,7 +129,7 @@ Result<void> run(const RenderFlags& flags) {
 
     const viewer::GroundData ground{.pyramid = terrain->pyramid().get(),
                                     .facts = viewer::ground_facts(scene->info()),
-                                    .cache_bytes = texel_bytes(flags.view),
+                                    .cache_bytes = sizes.texel_bytes,
                                     .heights = &heights};
 
     const viewer::PictureRequest request{.width = size->width,

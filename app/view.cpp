@@ -90,7 +90,8 @@ Result<void> run(const WindowFlags& flags) {
         put(*view, play->keys().front());
     }
 
-    const auto tiles = tile_options(flags.view, 0.5);
+    const lod::CacheSizes sizes = lod::cache_sizes(lod::find_machine(flags.scene), flags.view.memory);
+    const auto tiles = tile_options(sizes, 0.5);
     if (!tiles) return tiles.error();
 
     const auto scene = lod::Scene::open(flags.scene);
@@ -106,7 +107,7 @@ Result<void> run(const WindowFlags& flags) {
     const viewer::GroundData ground{
         .pyramid = terrain->pyramid().get(),
         .facts = viewer::ground_facts(scene->info()),
-        .cache_bytes = texel_bytes(flags.view),
+        .cache_bytes = sizes.texel_bytes,
         .heights = &heights,
         .report = [](const std::string& line) { fmt::print(stderr, "relevo view: {}\n", line); }};
 
@@ -120,7 +121,7 @@ Result<void> run(const WindowFlags& flags) {
                                   .chunks = {.store = {.memory_bytes = tiles->memory_bytes,
                                                        .threads = tiles->threads,
                                                        .read_delay_s = tiles->read_delay_s},
-                                             .selection = {}},
+                                             .selection = {.swap_factor = sizes.swap_factor}},
                                   .budget = *budget,
                                   .ui_scale = flags.ui_scale,
                                   .screenshot_folder = flags.screenshot_dir};

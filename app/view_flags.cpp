@@ -49,6 +49,18 @@ std::optional<int> whole_number(std::string_view text) {
     return number;
 }
 
+/// Nothing for "auto".
+std::optional<std::uint64_t> memory_of(std::string text) {
+    if (text == "auto") return std::nullopt;
+    if (text.find('-') != std::string::npos) throw CLI::ValidationError("--memory", "a size, e.g. 512MiB");
+    try {
+        CLI::AsSizeValue(false)(text);  // changes it to a number
+        return std::stoull(text);
+    } catch (const std::exception& wrong) {
+        throw CLI::ValidationError("--memory", wrong.what());
+    }
+}
+
 }  // namespace
 
 void add_picture_flags(CLI::App& command, ViewFlags& flags) {
@@ -69,9 +81,11 @@ void add_picture_flags(CLI::App& command, ViewFlags& flags) {
         "from its lowest to its highest, needed for shades of grey");
     add("--time", flags.time, "SECONDS", "Of the waves [0]");
     add("--samples", flags.samples, "1|4|8", "Samples a pixel, for smooth edges");
-    command.add_option("--memory", flags.memory, "Most memory for terrain and textures, e.g. 512MiB [1GiB]")
-        ->transform(CLI::AsSizeValue(false))
-        ->type_name("BYTES");
+    command
+        .add_option_function<std::string>(
+            "--memory", [&flags](const std::string& text) { flags.memory = memory_of(text); },
+            "Most memory for terrain and textures, e.g. 512MiB; auto is what fits the machine")
+        ->type_name("auto|BYTES");
     command.add_flag("--wireframe", flags.wireframe, "Draw the mesh's edges, coloured by level");
 }
 
@@ -112,9 +126,10 @@ Result<viewer::BudgetLimits> read_budget(const BudgetFlags& flags) {
     return viewer::BudgetLimits{flags.budget_ms, flags.max_triangles};
 }
 
-Result<lod::TileStoreOptions> tile_options(const ViewFlags& flags, double fade_s) {
+Result<lod::TileStoreOptions> tile_options(const lod::CacheSizes& sizes, double fade_s) {
     lod::TileStoreOptions options;
-    options.memory_bytes = static_cast<std::size_t>(flags.memory / 4);
+    options.memory_bytes = sizes.mesh_bytes;
+    options.threads = sizes.threads;
     options.fade_s = fade_s;
     if (const char* delay = std::getenv("RELEVO_READ_DELAY_MS")) {
         const auto ms = viewer::parse_numbers(delay);
@@ -124,10 +139,6 @@ Result<lod::TileStoreOptions> tile_options(const ViewFlags& flags, double fade_s
         options.threads = 8;  // that sleep most of the time
     }
     return options;
-}
-
-std::size_t texel_bytes(const ViewFlags& flags) {
-    return std::min(static_cast<std::size_t>(flags.memory / 4), viewer::GroundData{}.cache_bytes);
 }
 
 Result<viewer::ViewState> read_view(const ViewFlags& flags, const viewer::ViewState& base) {

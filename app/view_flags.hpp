@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "geo/result.hpp"
+#include "lod/cache_sizes.hpp"
 #include "lod/scene/scene.hpp"
 #include "lod/terrain.hpp"
 #include "viewer/eye_height.hpp"
@@ -26,18 +27,16 @@ struct ViewFlags {
     std::optional<double> heading, pitch, roll, fov, tau, exaggeration, time;
     bool wireframe = false;
     std::optional<int> samples;
-    std::uint64_t memory = std::uint64_t{1} << 30;
+    std::optional<std::uint64_t> memory;  ///< nothing: what fits the machine
 };
 /// Those of them that say how it is drawn, and not from where or by which method.
 void add_picture_flags(CLI::App& command, ViewFlags& flags);
 void add_view_flags(CLI::App& command, ViewFlags& flags);
 
-/// What --memory leaves for tiles. The environment variable RELEVO_READ_DELAY_MS delays each read of them, to
-/// try how a slow disk looks.
+/// How tiles are kept. The environment variable RELEVO_READ_DELAY_MS delays each read of them, to try how a
+/// slow disk looks.
 /// \param fade_s  in which what arrives comes in
-Result<lod::TileStoreOptions> tile_options(const ViewFlags& flags, double fade_s);
-/// What it leaves for the ground's texels.
-std::size_t texel_bytes(const ViewFlags& flags);
+Result<lod::TileStoreOptions> tile_options(const lod::CacheSizes& sizes, double fade_s);
 
 /// --budget and --max-triangles: what a frame may cost.
 struct BudgetFlags {

@@ -13,6 +13,7 @@
 #include "viewer/flight_recorder.hpp"
 #include "viewer/frame_times.hpp"
 #include "viewer/gl_check.hpp"
+#include "viewer/gl_memory.hpp"
 #include "viewer/hud.hpp"
 #include "viewer/mesher.hpp"
 #include "viewer/renderer.hpp"
@@ -49,9 +50,7 @@ class Flight {
           view_(start),
           playing_(options.play.has_value()) {
         figures_.gl = gl_description();
-        const bool software = figures_.gl.find("llvmpipe") != std::string::npos ||
-                              figures_.gl.find("softpipe") != std::string::npos;
-        figures_.samples = options.samples != 0 ? options.samples : software ? 1 : 4;
+        figures_.samples = options.samples != 0 ? options.samples : gl_is_software() ? 1 : 4;
     }
 
     Result<FlightFigures> run() {

@@ -17,6 +17,7 @@ struct LstrViewer::State {
         : options(how), scene(std::move(of)), terrain(std::move(on)), heights(scene.geoid()) {}
 
     LstrViewerOptions options;
+    double swap_factor = 0;  // of an eye at rest
     lod::Scene scene;
     lod::Terrain terrain;
     EyeHeight heights;
@@ -35,7 +36,7 @@ struct LstrViewer::State {
         double speed_m_s = 0;
         if (view && elapsed_s > 0) speed_m_s = glm::length(next.eye().m - view->eye().m) / elapsed_s;
         mesher->selection().swap_factor =
-            swap_factor_ahead(options.chunks.selection.swap_factor, speed_m_s, above_ground_m(next.camera()));
+            swap_factor_ahead(swap_factor, speed_m_s, above_ground_m(next.camera()));
     }
 };
 
@@ -56,14 +57,20 @@ Result<LstrViewer> LstrViewer::load(const std::filesystem::path& path, const Lst
     auto terrain = lod::Terrain::open(*scene, lod::ErrorMetric::bounded, {});
     if (!terrain) return terrain.error();
     if (auto done = lod::provide_chunks(*scene, *terrain); !done) return done.error();
+    const lod::CacheSizes caches =
+        options.caches ? *options.caches : lod::cache_sizes(lod::find_machine(path));
     auto state = std::make_unique<State>(*std::move(scene), *std::move(terrain), options);
     auto renderer = Renderer::create(state->terrain, {.pyramid = state->terrain.pyramid().get(),
                                                       .facts = ground_facts(state->scene.info()),
-                                                      .cache_bytes = options.texel_bytes,
+                                                      .cache_bytes = caches.texel_bytes,
                                                       .heights = &state->heights});
     if (!renderer) return renderer.error();
     state->renderer.emplace(*std::move(renderer));
-    state->mesher.emplace(state->terrain, *state->terrain.chunks(), options.chunks);
+    state->swap_factor = caches.swap_factor;
+    lod::ChunkOptions chunks;
+    chunks.store.memory_bytes = caches.mesh_bytes;
+    chunks.store.threads = caches.threads;
+    state->mesher.emplace(state->terrain, *state->terrain.chunks(), chunks);
     return LstrViewer(std::move(state));
 }
 

@@ -1,17 +1,18 @@
 #pragma once
 
-#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "geo/result.hpp"
+#include "lod/cache_sizes.hpp"
 #include "lod/lstr/chunk_mesher.hpp"
 #include "lod/scene/scene.hpp"
 #include "lod/terrain.hpp"
 #include "lod/view.hpp"
 #include "viewer/draw_settings.hpp"
 #include "viewer/eye_height.hpp"
-#include "viewer/ground/ground_data.hpp"
 #include "viewer/render_target.hpp"
 #include "viewer/renderer.hpp"
 
@@ -20,8 +21,8 @@ namespace relevo::viewer {
 struct LstrViewerOptions {
     lod::RefineOptions refine{.tau_px = 1, .morph = true};  ///< its exaggeration is that of `look`
     DrawSettings look = {};
-    lod::ChunkOptions chunks = {};                       ///< how nodes are kept and loaded
-    std::size_t texel_bytes = GroundData{}.cache_bytes;  ///< of the ground's textures
+    /// What is kept in memory and how it is read; nothing: what fits the machine.
+    std::optional<lod::CacheSizes> caches = {};
     /// Pictures are of all that their view asks for, however long that takes to read: for pictures that are
     /// kept. Else of what is there.
     bool waits = false;

@@ -122,6 +122,34 @@ TEST_F(Info, IsTheSameInAnyLocale) {
     EXPECT_EQ(plain.out, german.out);
 }
 
+TEST_F(Info, TellsTheMachineAndWhatFitsItWhenAsked) {
+    EXPECT_FALSE(nlohmann::json::parse(relevo("info --json " + quoted()).out).contains("machine"));
+    const auto run = relevo("info --json --machine " + quoted());
+    ASSERT_EQ(run.status, 0) << run.err;
+    const auto machine = nlohmann::json::parse(run.out)["machine"];
+    EXPECT_GT(machine["memory_bytes"], 0);
+    EXPECT_LE(machine["memory_available_bytes"], machine["memory_bytes"]);
+    EXPECT_GE(machine["cores"], 1);
+    const auto& chosen = machine["chosen"];
+    EXPECT_GE(chosen["memory_bytes"], 256 << 20);
+    EXPECT_LE(chosen["texel_bytes"], chosen["mesh_bytes"]);
+    EXPECT_GE(chosen["swap_factor"], 1.2);
+    EXPECT_NE(relevo("info --machine " + quoted()).out.find("\ncaches       --memory "), std::string::npos);
+}
+
+TEST_F(Info, MemoryIsASizeOrAuto) {
+    if (relevo("render --help").status != 0) GTEST_SKIP();  // built without the viewer
+    const auto render = [&](const std::string& memory) {
+        return relevo("render /no/such.relevo -o '" + (folder_ / "a.png").string() + "' --memory " + memory);
+    };
+    for (const char* fine : {"auto", "512MiB", "1000000000"}) EXPECT_EQ(render(fine).status, 3) << fine;
+    for (const char* wrong : {"1x", "much", "-1", "''"}) {
+        const auto run = render(wrong);
+        EXPECT_EQ(run.status, 2) << wrong;
+        EXPECT_NE(run.err.find("--memory"), std::string::npos) << run.err;
+    }
+}
+
 TEST_F(Info, StatusSaysWhoseFaultItIs) {
     EXPECT_EQ(relevo("info").status, 2);
     EXPECT_EQ(relevo("info --nonsense " + quoted()).status, 2);
