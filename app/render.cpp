@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/command.hpp"
+#include "app/ground_map_flag.hpp"
 #include "app/view_flags.hpp"
 #include "viewer/bench/machine.hpp"
 #include "viewer/numbers.hpp"
@@ -127,10 +128,13 @@ Result<void> run(const RenderFlags& flags) {
     const viewer::EyeHeight heights(scene->geoid());
     place_view(*view, flags.view, *scene, *terrain, heights, *size);
 
+    const auto map = read_ground_map(flags.view.ground_map, terrain->frame());
+    if (!map) return map.error();
     const viewer::GroundData ground{.pyramid = terrain->pyramid().get(),
                                     .facts = viewer::ground_facts(scene->info()),
                                     .cache_bytes = sizes.texel_bytes,
-                                    .heights = &heights};
+                                    .heights = &heights,
+                                    .map = *map};
 
     const viewer::PictureRequest request{.width = size->width,
                                          .height = size->height,

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/command.hpp"
+#include "app/ground_map_flag.hpp"
 #include "app/view_flags.hpp"
 #include "viewer/flight.hpp"
 
@@ -104,11 +105,14 @@ Result<void> run(const WindowFlags& flags) {
     const viewer::EyeHeight heights(scene->geoid());
     if (!play) place_view(*view, flags.view, *scene, *terrain, heights, *size);
 
+    const auto map = read_ground_map(flags.view.ground_map, terrain->frame());
+    if (!map) return map.error();
     const viewer::GroundData ground{
         .pyramid = terrain->pyramid().get(),
         .facts = viewer::ground_facts(scene->info()),
         .cache_bytes = sizes.texel_bytes,
         .heights = &heights,
+        .map = *map,
         .report = [](const std::string& line) { fmt::print(stderr, "relevo view: {}\n", line); }};
 
     viewer::FlightOptions options{.width = size->width,

@@ -101,6 +101,10 @@ void add_view_flags(CLI::App& command, ViewFlags& flags) {
     add("--fov", flags.fov, "DEG", "Vertical view angle, above 0 and below 180 [60]");
     add("--lod", flags.method, "soar|lstr|full", "How the mesh is made [soar]");
     add("--metric", flags.metric, "bounded|incremental", "The error that drives it [bounded]");
+    add("--ground-map", flags.ground_map, "FILE",
+        "What --layer terrain is made of: a georeferenced raster of four bands of bytes, the weights of "
+        "grass, "
+        "rock, gravel and snow");
     add_picture_flags(command, flags);
 }
 

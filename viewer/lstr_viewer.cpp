@@ -63,7 +63,8 @@ Result<LstrViewer> LstrViewer::load(const std::filesystem::path& path, const Lst
     auto renderer = Renderer::create(state->terrain, {.pyramid = state->terrain.pyramid().get(),
                                                       .facts = ground_facts(state->scene.info()),
                                                       .cache_bytes = caches.texel_bytes,
-                                                      .heights = &state->heights});
+                                                      .heights = &state->heights,
+                                                      .map = options.ground_map});
     if (!renderer) return renderer.error();
     state->renderer.emplace(*std::move(renderer));
     state->swap_factor = caches.swap_factor;

@@ -13,6 +13,7 @@
 #include "lod/view.hpp"
 #include "viewer/draw_settings.hpp"
 #include "viewer/eye_height.hpp"
+#include "viewer/ground/ground_map.hpp"
 #include "viewer/render_target.hpp"
 #include "viewer/renderer.hpp"
 
@@ -23,6 +24,7 @@ struct LstrViewerOptions {
     DrawSettings look = {};
     /// What is kept in memory and how it is read; nothing: what fits the machine.
     std::optional<lod::CacheSizes> caches = {};
+    std::shared_ptr<const GroundMap> ground_map = nullptr;  ///< of the layer `terrain`
     /// Pictures are of all that their view asks for, however long that takes to read: for pictures that are
     /// kept. Else of what is there.
     bool waits = false;

@@ -44,6 +44,7 @@ Result<Renderer> Renderer::create(const lod::Terrain& terrain, const GroundData&
     auto ground = GroundTextures::create(terrain, data);
     if (!ground) return ground.error();
     Renderer made(terrain, *std::move(ground), data.heights);
+    made.ground_map_ = data.map;
     if (auto done = made.make_ramps(); !done) return done.error();
 
     made.frame_ = GlBuffer::create();
@@ -134,6 +135,7 @@ Result<GlName> Renderer::terrain_program(const Variant& variant) {
     std::string common(shader_text("frame.glsl"));
     if (covered) {
         defines += ground_->facts().has_sea ? "#define COVER\n#define SHORE\n" : "#define COVER\n";
+        if (ground_map_) defines += "#define GROUND_MAP\n";
         common += std::string(shader_text("light.glsl")) + std::string(shader_text("cover_block.glsl"));
     }
     const bool plain = variant.layer == Layer::plain;
@@ -183,7 +185,7 @@ void Renderer::prepare(const lod::View& view, const DrawSettings& settings, cons
     glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, frame_.name());
     ground_->update(Sight(view, part), settings.exaggeration);
     if (settings.layer == Layer::terrain) {
-        if (!cover_) cover_.emplace();
+        if (!cover_) cover_.emplace(ground_map_.get());
         cover_->update(terrain_->frame(), {view.camera().eye.lat, view.camera().eye.lon});
     }
     glDisable(GL_BLEND);

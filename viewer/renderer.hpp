@@ -101,7 +101,8 @@ class Renderer {
     std::map<Variant, GlProgram> terrain_programs_;
     /// By day, and with a low sun, which is made when there is one.
     std::array<GlProgram, 2> sky_programs_;
-    std::optional<GroundCover> cover_;  // made with the layer's first picture
+    std::shared_ptr<const GroundMap> ground_map_;  // null: there is none
+    std::optional<GroundCover> cover_;             // made with the layer's first picture
     GlBuffer frame_;
     GlBuffer vertices_;
     GlBuffer indices_;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <gtest/gtest.h>
 
@@ -81,9 +82,9 @@ Parts parts(double slope, double H) {
 }
 
 /// The colour of such ground under a sun at the zenith, before its brightness varies.
-Colour expected(double slope, double H) {
+Colour expected(double slope, double H, std::optional<Parts> given = {}) {
     const double dry = std::clamp(1.1 * H / kSnowLine - 0.05, 0.0, 1.0);
-    const Parts share = parts(slope, H);
+    const Parts share = given.value_or(parts(slope, H));
     const double lit = std::cos(slope * std::numbers::pi / 180);
     const Colour lush{0.255, 0.2975, 0.140}, straw{0.475, 0.425, 0.2575}, rock{0.415, 0.385, 0.3525},
         gravel{0.4525, 0.425, 0.385}, snow{0.830, 0.865, 0.915}, sun{1.00, 0.96, 0.88}, sky{0.35, 0.39, 0.45};
@@ -113,6 +114,55 @@ TEST(CoverPictures, SlopeAndHeightSayWhatTheGroundIsMadeOf) {
         for (std::size_t i = 0; i < 3; ++i)
             EXPECT_NEAR(found[i], wanted[i], at.tolerance) << at.what << " channel " << i;
     }
+}
+
+/// Of the plane's grid, or of a part of its texels.
+template <class Shares>
+std::shared_ptr<const viewer::GroundMap> ground_map(int columns, int rows, Shares shares) {
+    auto map = std::make_shared<viewer::GroundMap>(viewer::GroundMap{columns, rows, {}});
+    for (int row = 0; row < rows; ++row) {
+        for (int column = 0; column < columns; ++column) map->shares.push_back(shares(column, row));
+    }
+    return map;
+}
+
+TEST(CoverPictures, AMapSaysWhatTheGroundIsMadeOfWhateverItsSlopeAndHeight) {
+    struct Case {
+        const char* what;
+        std::array<std::uint8_t, 4> given;
+        Parts parts;
+    };
+    for (const Case& at :
+         {Case{"grass", {255, 0, 0, 0}, {1, 0, 0, 0}}, Case{"rock", {0, 255, 0, 0}, {0, 1, 0, 0}},
+          Case{"gravel", {0, 0, 255, 0}, {0, 0, 1, 0}}, Case{"snow", {0, 0, 0, 255}, {0, 0, 0, 1}},
+          Case{"rock and snow", {0, 127, 0, 128}, {0, 0.5, 0, 0.5}}}) {
+        for (const double H : {300.0, 6000.0}) {  // grass and snow, without a map
+            Studio studio(plane(0, H), ground_map(129, 129, [&](int, int) { return at.given; }));
+            const auto picture = studio.draw(above_looking_down(studio.terrain(), 64, 64, 3500), lit("0,90"));
+            const Colour found = mean(picture, 65, 85);
+            const Colour wanted = expected(0, H, at.parts);
+            for (std::size_t i = 0; i < 3; ++i)
+                EXPECT_NEAR(found[i], wanted[i], 18) << at.what << " at " << H << " m, channel " << i;
+        }
+    }
+}
+
+// The west is snow by the map, whose texels are of four posts; of the east it says nothing.
+TEST(CoverPictures, WhereAMapHasNoDataTheGroundIsAsWithoutIt) {
+    const auto west = ground_map(33, 129, [](int column, int) {
+        return std::array<std::uint8_t, 4>{0, 0, 0, static_cast<std::uint8_t>(column < 16 ? 255 : 0)};
+    });
+    Studio studio(plane(0, 300), west);
+    Studio without(plane(0, 300));
+    const auto at = [&](Studio& drawn, double column) {
+        return drawn.draw(above_looking_down(drawn.terrain(), column, 64, 300, 60, 40), lit("0,90"));
+    };
+    EXPECT_EQ(at(studio, 100).rgb, at(without, 100).rgb);
+    const Colour snow = mean(at(studio, 30));
+    const Colour wanted = expected(0, 300, Parts{0, 0, 0, 1});
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(snow[i], wanted[i], 18);
+    // The border is at post 62 by the map's texels, and blended over one.
+    EXPECT_GT(brightness(mean(at(studio, 59))), brightness(mean(at(studio, 66))) + 60);
 }
 
 TEST(CoverPictures, SeaIsWaterAndItsShoreIsSand) {

@@ -31,17 +31,20 @@ inline void must(const Result<void>& result) {
 }
 
 /// The ground of a terrain in memory.
-inline viewer::GroundData ground_of(const lod::Terrain& terrain) {
-    return {.pyramid = terrain.pyramid().get(), .facts = must(viewer::ground_facts(*terrain.pyramid()))};
+inline viewer::GroundData ground_of(const lod::Terrain& terrain,
+                                    std::shared_ptr<const viewer::GroundMap> map = nullptr) {
+    return {.pyramid = terrain.pyramid().get(),
+            .facts = must(viewer::ground_facts(*terrain.pyramid())),
+            .map = std::move(map)};
 }
 
 /// An off-screen context and a renderer for one terrain: draws any view of it.
 class Studio {
   public:
-    explicit Studio(lod::Terrain terrain)
+    explicit Studio(lod::Terrain terrain, std::shared_ptr<const viewer::GroundMap> map = nullptr)
         : context_(must(viewer::OffscreenContext::create())),
           terrain_(std::make_unique<lod::Terrain>(std::move(terrain))),
-          renderer_(must(viewer::Renderer::create(*terrain_, ground_of(*terrain_)))),
+          renderer_(must(viewer::Renderer::create(*terrain_, ground_of(*terrain_, std::move(map))))),
           mesher_(*terrain_) {}
 
     const lod::Terrain& terrain() const { return *terrain_; }

@@ -1,5 +1,6 @@
 #include "viewer/ground/ground_cover.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include <epoxy/gl.h>
@@ -14,11 +15,28 @@ namespace {
 
 // As in shaders/cover.glsl and cover_block.glsl.
 constexpr GLuint kMaterialsUnit = 8;
+constexpr GLuint kMapUnit = 9;
 constexpr GLuint kCoverBinding = 4;
+
+GlTexture texture_of(const GroundMap& map) {
+    GlTexture made(create_gl_texture(GL_TEXTURE_2D));
+    const GlName name = made.name();
+    int levels = 1;
+    while (std::max(map.columns, map.rows) >> levels > 0) ++levels;
+    glTextureStorage2D(name, levels, GL_RGBA8, map.columns, map.rows);
+    glTextureSubImage2D(name, 0, 0, 0, map.columns, map.rows, GL_RGBA, GL_UNSIGNED_BYTE, map.shares.data());
+    glGenerateTextureMipmap(name);
+    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    return made;
+}
 
 }  // namespace
 
-GroundCover::GroundCover() {
+GroundCover::GroundCover(const GroundMap* map) {
+    if (map != nullptr) map_ = texture_of(*map);
     std::array<std::vector<MaterialTexel>, kMaterials> tiles;
     tbb::parallel_for(0, kMaterials, [&](int i) {
         tiles[static_cast<std::size_t>(i)] = material_tile(static_cast<Material>(i));
@@ -47,6 +65,7 @@ void GroundCover::update(const geo::GridFrame& grid, geo::LatLon eye) {
 
 void GroundCover::bind() const {
     glBindTextureUnit(kMaterialsUnit, materials_.name());
+    if (map_) glBindTextureUnit(kMapUnit, map_.name());
     glBindBufferBase(GL_UNIFORM_BUFFER, kCoverBinding, block_.name());
 }
 

@@ -2,6 +2,7 @@
 
 #include "geo/frame.hpp"
 #include "viewer/gl_object.hpp"
+#include "viewer/ground/ground_map.hpp"
 
 namespace relevo::viewer {
 
@@ -10,7 +11,8 @@ namespace relevo::viewer {
 class GroundCover {
   public:
     /// Makes the tiles, on all cores. \pre a context is current
-    GroundCover();
+    /// \param map  null: what is where follows from the data alone
+    explicit GroundCover(const GroundMap* map);
 
     /// Lays the tiles for an eye.
     void update(const geo::GridFrame& grid, geo::LatLon eye);
@@ -20,6 +22,7 @@ class GroundCover {
 
   private:
     GlTexture materials_;
+    GlTexture map_;  // only where there is one
     GlBuffer block_;
 };
 

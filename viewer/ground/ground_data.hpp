@@ -2,12 +2,14 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "geo/result.hpp"
 #include "lod/pyramid/pyramid.hpp"
 #include "lod/scene/scene_info.hpp"
 #include "viewer/eye_height.hpp"
+#include "viewer/ground/ground_map.hpp"
 
 namespace relevo::viewer {
 
@@ -39,6 +41,8 @@ struct GroundData {
     /// N anywhere on earth, for the sea's level, which is at the ellipsoid without it. Must outlive what
     /// draws.
     const EyeHeight* heights = nullptr;
+    /// What the layer `terrain` is made of, where the user says it.
+    std::shared_ptr<const GroundMap> map = nullptr;
     /// Called once for each block that cannot be read, on the thread that draws.
     std::function<void(const std::string&)> report = [](const std::string&) {};
 };

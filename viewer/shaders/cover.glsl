@@ -1,5 +1,15 @@
 // The natural ground: what it is made of, and how that looks.
 layout(binding = 8) uniform sampler2DArray materials;  // grass, rock, gravel, snow; grain (viewer/ground/ground_materials.hpp)
+#ifdef GROUND_MAP
+layout(binding = 9) uniform sampler2D ground_map;  // the user's parts of grass, rock, gravel and snow (ground_map.hpp)
+
+// `apart`: posts a pixel.
+vec4 mapped_weights(vec2 grid, float apart) {
+    vec2 posts_across = frame.grid.xy + 1.0;
+    float texels = apart * float(textureSize(ground_map, 0).x) / posts_across.x;
+    return textureLod(ground_map, (grid + 0.5) / posts_across, rough_log2(texels));
+}
+#endif
 
 // Parts of grass, rock, gravel and snow. They are 1 together. Degrees; metres; the part of sea in the ground around.
 vec4 cover_weights(float slope, float H, float sea, float snow_line) {
@@ -30,12 +40,16 @@ struct CoverLook {
     vec2 slope;  // of what the data does not tell
 };
 
-// Metres from the anchor; how many of them a pixel is; all that cover_weights asks for.
-CoverLook cover_at(vec2 at, float pixel, float slope, float H, float sea, float snow_line) {
+// Metres from the anchor; how many of them a pixel is; all that cover_weights asks for; weights that the user gives, of
+// which less than 1 leaves the rest to those.
+CoverLook cover_at(vec2 at, float pixel, float slope, float H, float sea, float snow_line, vec4 given) {
     // A landscape varies over hundreds of metres, in two ways that have nothing to do with each other.
     float macro_lod = rough_log2(pixel * (256.0 * length(cover.macro.zw)));
     vec2 macro = textureLod(materials, vec3(in_tile(cover.macro, at), 4.0), macro_lod).rg - 0.5;
     vec4 weights = cover_weights(slope + 14.0 * macro.x, H + 500.0 * macro.y, sea, snow_line);
+#ifdef GROUND_MAP
+    weights = given + max(1.0 - dot(given, vec4(1.0)), 0.0) * weights;
+#endif
 
     // The two materials that there is most of are shown with their texture. Less what there is of the third: so none of
     // them appears at once.

@@ -119,7 +119,12 @@ void main() {
     const float sea = 0.0;
 #endif
     float slope = degrees(acos(clamp(true_normal.z, 0.0, 1.0)));
-    CoverLook ground = cover_at(surface.cover.xy, size, slope, H, sea, surface.cover.z);
+#ifdef GROUND_MAP
+    vec4 given = mapped_weights(surface.grid, max(max(x.x, y.x), max(x.y, y.y)));
+#else
+    const vec4 given = vec4(0.0);
+#endif
+    CoverLook ground = cover_at(surface.cover.xy, size, slope, H, sea, surface.cover.z, given);
     vec3 bumpy = normalize(vec3(normal.xy - ground.slope * normal.z, normal.z));
     // Bumps face the sun on slopes that turn away from it, too, but lie in their shadow.
     float sunny = max(dot(bumpy, sun), 0.0) * smoothstep(-0.02, 0.15, lit);
