@@ -22,9 +22,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kPiece = std::size_t{256} << 10;
-constexpr std::size_t kMostPieces = 64;
-constexpr std::size_t kLeastCounted = std::size_t{1} << 20;  // less is too short to time
+constexpr std::size_t kPiece = std::size_t{128} << 10;  // about a block of heights
+constexpr std::size_t kMostPieces = 128;
+// Less than both is too little to tell from.
+constexpr std::size_t kLeastRead = std::size_t{1} << 20;
+constexpr double kLeastS = 0.02;
 constexpr auto kTime = std::chrono::milliseconds(60);
 
 /// "MemAvailable:   123456 kB", of /proc/meminfo.
@@ -88,18 +90,19 @@ struct Piece {
 
 /// Evenly over the folder's larger files.
 std::vector<Piece> pieces_of(const fs::path& folder) {
-    constexpr std::size_t kMostFiles = 1000;
+    constexpr int kMostEntries = 10000;  // the folder may be anything: it has not been opened yet
     std::vector<std::pair<fs::path, std::uintmax_t>> files;
     std::uintmax_t pieces = 0;
+    int seen = 0;
     std::error_code failed;
     for (fs::recursive_directory_iterator at(folder, failed), end; !failed && at != end;
          at.increment(failed)) {
+        if (++seen > kMostEntries) break;
         std::error_code unknown;
         const auto bytes = at->is_regular_file(unknown) ? at->file_size(unknown) : 0;
         if (unknown || bytes < kPiece) continue;
         files.emplace_back(at->path(), bytes / kPiece);
         pieces += bytes / kPiece;
-        if (files.size() == kMostFiles) break;
     }
     const std::uintmax_t step = std::max<std::uintmax_t>(1, (pieces + kMostPieces - 1) / kMostPieces);
     std::vector<Piece> chosen;
@@ -145,7 +148,7 @@ void time_reading(const fs::path& folder, MachineFigures& found) {
     if (cached + read > 0)
         found.cached_part = static_cast<double>(cached) / static_cast<double>(cached + read);
     const double seconds = std::chrono::duration<double>(reading).count();
-    if (read >= kLeastCounted && seconds > 0)
+    if (read > 0 && (read >= kLeastRead || seconds >= kLeastS))
         found.read_mib_s = static_cast<double>(read) / static_cast<double>(1 << 20) / seconds;
 }
 

@@ -22,7 +22,7 @@ struct MachineFigures {
 /// Memory and cores. Where a file system like Linux's /proc and /sys is mounted elsewhere, `root` says where.
 MachineFigures find_memory(const std::filesystem::path& root = "/");
 
-/// Those, and how fast a scene's folder is read: up to 16 MiB of its files, 256 KiB here and there, for 60 ms
+/// Those, and how fast a scene's folder is read: up to 16 MiB of its files, 128 KiB here and there, for 60 ms
 /// at most. The system is asked to forget these pieces first; those that it still has in memory (what was
 /// just written, and file systems that live there) are not counted. A disk's own cache, or that of a host
 /// around a virtual machine, cannot be told from the disk: the rate is then what one gets.
