@@ -48,7 +48,8 @@ Result<Opened> open(const ChunksOptions& options) {
 Result<void> make(const ChunksOptions& options) {
     auto opened = open(options);
     if (!opened) return opened.error();
-    if (auto done = make_chunks(opened->scene, opened->terrain, options); !done) return done;
+    const lod::ChunkBuilding building{lod::chunk_errors(opened->terrain)};
+    if (auto done = make_chunks(opened->scene, opened->terrain, building, options); !done) return done;
     const auto file = lod::ChunkFile::open(opened->scene, opened->terrain);
     if (!file) return file.error();
     if (options.json) {
@@ -111,10 +112,11 @@ Result<void> replace(const ChunksOptions& options) {
 
 }  // namespace
 
-Result<void> make_chunks(const lod::Scene& scene, const lod::Terrain& terrain, const Common& common) {
+Result<void> make_chunks(const lod::Scene& scene, const lod::Terrain& terrain,
+                         const lod::ChunkBuilding& building, const Common& common) {
     const StopOnSignal signals;
     const auto bar = progress_bar(common, "making the quadtree");
-    return lod::make_chunk_file(scene, terrain, [&](double done) {
+    return lod::make_chunk_file(scene, terrain, building, [&](double done) {
         bar(done);
         return !signals.stop_asked();
     });

@@ -7,6 +7,7 @@
 
 #include "geo/position.hpp"
 #include "geo/result.hpp"
+#include "lod/lstr/chunk_builder.hpp"
 #include "lod/scene/scene.hpp"
 #include "lod/terrain.hpp"
 
@@ -35,7 +36,8 @@ void add_chunks(CLI::App& program, Action& action);
 void add_export(CLI::App& program, Action& action);
 
 /// Makes a scene's chunks.bin, with a progress bar; Ctrl-C stops it, and it can be gone on with.
-Result<void> make_chunks(const lod::Scene& scene, const lod::Terrain& terrain, const Common& common);
+Result<void> make_chunks(const lod::Scene& scene, const lod::Terrain& terrain,
+                         const lod::ChunkBuilding& building, const Common& common);
 
 /// Gives a terrain its scene's chunks, which are made first where they are not there, with a progress bar.
 Result<void> provide_chunks(const lod::Scene& scene, lod::Terrain& terrain, const Common& common);

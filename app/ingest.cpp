@@ -14,6 +14,7 @@
 #include "ingest/import.hpp"
 #include "ingest/reference/vertical_datum.hpp"
 #include "ingest/source/inputs.hpp"
+#include "lod/lstr/chunk_file.hpp"
 
 namespace relevo::app {
 namespace {
@@ -206,7 +207,7 @@ Result<void> add_quadtree(const Settings& s) {
     if (!scene) return scene.error();
     const auto terrain = lod::Terrain::open(*scene, lod::ErrorMetric::bounded, {});
     if (!terrain) return terrain.error();
-    return make_chunks(*scene, *terrain, s.common);
+    return make_chunks(*scene, *terrain, {lod::chunk_errors(*terrain)}, s.common);
 }
 
 Result<void> run_import(const Settings& s) {

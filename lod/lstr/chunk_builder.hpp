@@ -6,36 +6,33 @@
 #include <vector>
 
 #include "geo/result.hpp"
+#include "lod/lstr/chunk_errors.hpp"
 #include "lod/lstr/chunk_mesh.hpp"
 #include "lod/lstr/chunk_shape.hpp"
+#include "lod/lstr/removable_posts.hpp"
 #include "lod/terrain.hpp"
 
 namespace relevo::lod {
 
-/// How far levels of the quadtree may be off the ground: level 1 by first_m, each coarser one by twice as
-/// much. The coarser one is drawn from twice as far, so that on the screen all are off by the same.
-struct ChunkErrors {
-    double first_m = 0;
-
-    double of_level(int level) const {
-        return level < 1 ? 0 : first_m * static_cast<double>(1 << (level - 1));
-    }
-
-    /// For leaves whose posts are so far apart.
-    static ChunkErrors for_spacing(double spacing_m);
+/// What nodes are built by.
+struct ChunkBuilding {
+    ChunkErrors errors;
+    RemovalTest filter = RemovalTest::pairs;
+    /// Nodes up to this level are built from all posts, a node of this level in one piece.
+    int piece_level = 5;
 };
 
-/// Makes the meshes of all nodes from the leaves up, a square of 1024 posts at a time: each is that of its
-/// four children, of which posts are taken away as long as no post of the ground is farther off than the
-/// level may be. Posts that the filter (removable_posts.hpp) finds go first, then those in the node's middle,
-/// last those near its border. On the border stay the posts that border_line.hpp names, whatever is inside.
+/// Makes the meshes of all nodes from the leaves up (chunk_simplifier.hpp), on all cores.
 class ChunkBuilder {
   public:
-    ChunkBuilder(const Terrain& terrain, const ChunkErrors& errors) : terrain_(terrain), errors_(errors) {}
+    ChunkBuilder(const Terrain& terrain, const ChunkBuilding& building)
+        : terrain_(terrain), building_(building) {}
 
-    /// Takes meshes in an order that depends on the terrain alone; children come before their parent. May
-    /// fail.
-    using Sink = std::function<Result<void>(const ChunkMesh&)>;
+    /// What is left to do with a mesh when its turn comes. May fail.
+    using Writing = std::function<Result<void>()>;
+    /// Takes meshes from several threads, in any order; what it returns is called by one thread at a time, in
+    /// an order that depends on the terrain alone: children before their parent.
+    using Sink = std::function<Writing(const ChunkMesh&)>;
 
     /// What lets a building that was interrupted go on: subtrees of 2048 posts a side and more.
     struct Subtrees {
@@ -49,20 +46,20 @@ class ChunkBuilder {
     Result<void> build(const Sink& sink, const Subtrees& subtrees = {}) const;
 
   private:
-    /// Nodes of this level are built from the leaves on in one piece.
-    static constexpr int kPieceLevel = 5;
+    /// Bounds the memory: some 30 MiB each.
+    static constexpr std::size_t kPiecesAhead = 8;
 
     struct Piece;
-    Result<Piece> build_piece(const ChunkId& id) const;
-    Result<ChunkShape> build_above(const ChunkId& id, const Sink& sink, const Subtrees& subtrees) const;
-    ChunkShape build_in(const PostField& field, const ChunkId& id, std::vector<ChunkMesh>& done) const;
-    PlanarMesh refined(const PostField& field, const ChunkId& id) const;
-    PlanarMesh coarsened(const PostField& field, const ChunkId& id,
-                         const std::array<ChunkShape, 4>& children) const;
-    ChunkShape simplified(const PostField& field, const ChunkId& id, PlanarMesh mesh) const;
+    struct Step;
+    Result<void> plan(const ChunkId& id, const Subtrees& subtrees, std::vector<Step>& steps) const;
+    Result<Piece> build_piece(const ChunkId& id, const Sink& sink) const;
+    Result<ChunkShape> build_above(const ChunkId& id, const std::array<ChunkShape, 4>& children,
+                                   const Sink& sink) const;
+    ChunkShape build_in(const PostField& field, const PostSet& removable, const ChunkId& id, const Sink& sink,
+                        std::vector<Writing>& done) const;
 
     const Terrain& terrain_;
-    ChunkErrors errors_;
+    ChunkBuilding building_;
 };
 
 }  // namespace relevo::lod

@@ -87,7 +87,7 @@ Result<ChunkFile> ChunkFile::open(const Scene& scene, const Terrain& terrain) {
     if (!(head.first_error_m > 0) || head.finished != 1 || head.nodes != made.index_.size() ||
         head.end != made.bytes_ || made.bytes_ < sizeof(head) + head.nodes * sizeof(ChunkRow))
         return damaged;
-    made.first_error_m_ = head.first_error_m;
+    made.errors_ = {head.first_error_m};
     const auto table = read_at(made.file_, sizeof(head), head.nodes * sizeof(ChunkRow), made.name_);
     if (!table) return damaged;
     made.entries_.resize(made.index_.size());
@@ -127,7 +127,7 @@ Result<std::shared_ptr<const ChunkMesh>> ChunkFile::mesh(const ChunkId& id) cons
                                  "anew",
                                  name_, id.level, id.column, id.row)};
     }
-    auto mesh = decode_chunk(*bytes, id, ChunkErrors{first_error_m_}.of_level(id.level), name_);
+    auto mesh = decode_chunk(*bytes, id, errors_.of_level(id.level), name_);
     if (!mesh) return mesh.error();
     mesh->error_m = entry.node.error_m;
     mesh->moved_error_m = entry.node.moved_error_m;

@@ -31,6 +31,7 @@ class ChunkFile final : public ChunkSet {
     const std::string& name() const { return name_; }
     const ChunkIndex& index() const { return index_; }
     std::uint64_t bytes() const { return bytes_; }
+    ChunkErrors errors() const { return errors_; }
     bool is_replaced(const ChunkId& id) const;
 
   private:
@@ -46,7 +47,7 @@ class ChunkFile final : public ChunkSet {
     std::string name_;
     Descriptor file_;
     std::uint64_t bytes_ = 0;
-    double first_error_m_ = 0;
+    ChunkErrors errors_;
     ChunkIndex index_;
     std::vector<Entry> entries_;
 };

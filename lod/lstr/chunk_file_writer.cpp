@@ -88,7 +88,7 @@ bool ChunkFileWriter::resume(const ChunkFileHead& head) {
     std::memcpy(&head_, start->data(), sizeof(head_));
     struct stat status {};
     if (head_.magic != head.magic || head_.scene != head.scene || head_.first_error_m != head.first_error_m ||
-        head_.nodes != rows_.size() || fstat(file_.number(), &status) != 0 ||
+        head_.filter != head.filter || head_.nodes != rows_.size() || fstat(file_.number(), &status) != 0 ||
         head_.end > static_cast<std::uint64_t>(status.st_size))
         return false;
     const auto table = read_at(file_, sizeof(head_), rows_.size() * sizeof(ChunkRow), path_.string());
@@ -137,15 +137,14 @@ Result<ChunkFileWriter> ChunkFileWriter::on_copy(const std::filesystem::path& pl
     return made;
 }
 
-Result<void> ChunkFileWriter::put(const Terrain& terrain, const ChunkMesh& mesh, std::uint32_t flags) {
-    const std::size_t place = index_->place(mesh.id);
-    const std::vector<std::byte> bytes =
-        encode_chunk(mesh, ChunkErrors{head_.first_error_m}.of_level(mesh.id.level));
+ChunkFileWriter::PackedNode ChunkFileWriter::packed(const Terrain& terrain, const ChunkMesh& mesh,
+                                                    std::uint32_t flags) const {
+    PackedNode packed{index_->place(mesh.id), {}, {}};
+    packed.bytes = encode_chunk(mesh, ChunkErrors{head_.first_error_m}.of_level(mesh.id.level));
     const ChunkNode node = chunk_node(terrain, mesh);
-    ChunkRow row{};
-    row.offset = head_.end;
-    row.bytes = bytes.size();
-    row.checksum = start_of<16>(sha256_hex(bytes));
+    ChunkRow& row = packed.row;
+    row.bytes = packed.bytes.size();
+    row.checksum = start_of<16>(sha256_hex(packed.bytes));
     row.flags = ChunkRow::kThere | flags;
     row.vertices = node.vertices;
     row.error_m = node.error_m;
@@ -155,12 +154,18 @@ Result<void> ChunkFileWriter::put(const Terrain& terrain, const ChunkMesh& mesh,
         row.middle[static_cast<std::size_t>(axis)] = node.box.middle[axis];
         row.half[static_cast<std::size_t>(axis)] = node.box.half[axis];
     }
+    return packed;
+}
+
+Result<void> ChunkFileWriter::put(const PackedNode& node) {
+    if (auto done = write(head_.end, node.bytes.data(), node.bytes.size()); !done) return done;
+    ChunkRow& row = rows_[node.place];
+    if ((row.flags & ChunkRow::kThere) == 0) ++there_;
+    row = node.row;
+    row.offset = head_.end;
     row.own_checksum = row.own();
-    if (auto done = write(head_.end, bytes.data(), bytes.size()); !done) return done;
-    head_.end += bytes.size();
-    if ((rows_[place].flags & ChunkRow::kThere) == 0) ++there_;
-    rows_[place] = row;
-    changed_.insert(place);
+    head_.end += node.bytes.size();
+    changed_.insert(node.place);
     return {};
 }
 

@@ -20,15 +20,25 @@ namespace relevo::lod {
 class ChunkFileWriter {
   public:
     /// \param place  of the finished file
-    /// \param head   what it is of: magic, scene, first_error_m. Parts of something else are thrown away.
+    /// \param head   what it is of: magic, scene, first_error_m, filter. Parts of something else are thrown
+    /// away.
     static Result<ChunkFileWriter> open(const std::filesystem::path& place, const ChunkFileHead& head,
                                         const ChunkIndex& index);
 
     /// As open(), on a copy of what stands at its place.
     static Result<ChunkFileWriter> on_copy(const std::filesystem::path& place, const ChunkIndex& index);
 
-    /// Puts a node, in place of one that was there. \param flags  besides ChunkRow::kThere
-    Result<void> put(const Terrain& terrain, const ChunkMesh& mesh, std::uint32_t flags = 0);
+    /// A node as it lies in the file; its row knows all but where.
+    struct PackedNode {
+        std::size_t place;  ///< of its row
+        ChunkRow row;
+        std::vector<std::byte> bytes;
+    };
+    /// May be called from several threads. \param flags  besides ChunkRow::kThere
+    PackedNode packed(const Terrain& terrain, const ChunkMesh& mesh, std::uint32_t flags = 0) const;
+
+    /// Puts a node, in place of one that was there.
+    Result<void> put(const PackedNode& node);
 
     /// What was put is on the disk.
     Result<void> commit();

@@ -16,7 +16,7 @@
 
 namespace relevo::lod {
 
-inline constexpr std::array<char, 8> kChunkMagic{'r', 'e', 'l', 'c', 'h', 'n', 'k', '4'};
+inline constexpr std::array<char, 8> kChunkMagic{'r', 'e', 'l', 'c', 'h', 'n', 'k', '5'};
 
 template <std::size_t N>
 std::array<char, N> start_of(const std::string& text) {
@@ -29,11 +29,12 @@ struct ChunkFileHead {
     std::array<char, 8> magic = kChunkMagic;
     std::array<char, 64> scene{};  ///< SHA-256 of its scene.json
     double first_error_m = 0;      ///< ChunkErrors
+    std::uint64_t filter = 0;      ///< RemovalTest
     std::uint64_t nodes = 0;       ///< rows that follow
     std::uint64_t end = 0;         ///< of what is written and counts
     std::uint64_t finished = 0;    ///< 1: all rows are there
 };
-static_assert(std::is_trivially_copyable_v<ChunkFileHead> && sizeof(ChunkFileHead) == 104);
+static_assert(std::is_trivially_copyable_v<ChunkFileHead> && sizeof(ChunkFileHead) == 112);
 
 /// All zero: the node is not there yet.
 struct ChunkRow {

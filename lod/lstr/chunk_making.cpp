@@ -4,18 +4,19 @@
 #include <memory>
 #include <utility>
 
-#include "lod/lstr/chunk_builder.hpp"
 #include "lod/lstr/chunk_file.hpp"
 #include "lod/lstr/chunk_file_writer.hpp"
 
 namespace relevo::lod {
 
-Result<void> make_chunk_file(const Scene& scene, const Terrain& terrain, const ChunkProgress& progress) {
+Result<void> make_chunk_file(const Scene& scene, const Terrain& terrain, const ChunkBuilding& building,
+                             const ChunkProgress& progress) {
     const auto own = chunk_identity(scene);
     if (!own) return own.error();
     ChunkFileHead head;
     head.scene = *own;
-    head.first_error_m = chunk_errors(terrain).first_m;
+    head.first_error_m = building.errors.first_m;
+    head.filter = static_cast<std::uint64_t>(building.filter);
     const ChunkIndex index(terrain.frame());
     auto file = ChunkFileWriter::open(scene.path() / ChunkFile::kName, head, index);
     if (!file) return file.error();
@@ -24,26 +25,29 @@ Result<void> make_chunk_file(const Scene& scene, const Terrain& terrain, const C
         return {};
     }
     const auto all = static_cast<double>(std::max<std::size_t>(index.size(), 1));
-    const auto keep = [&](const ChunkMesh& mesh) -> Result<void> {
-        if (!progress(static_cast<double>(file->nodes_there()) / all))
-            return Error{ErrorKind::input, "stopped; what is done of chunks.bin is kept, and gone on with"};
-        return file->put(terrain, mesh);
+    const auto keep = [&](const ChunkMesh& mesh) -> ChunkBuilder::Writing {
+        return [&, packed = file->packed(terrain, mesh)]() -> Result<void> {
+            if (!progress(static_cast<double>(file->nodes_there()) / all))
+                return Error{ErrorKind::input,
+                             "stopped; what is done of chunks.bin is kept, and gone on with"};
+            return file->put(packed);
+        };
     };
     const ChunkBuilder::Subtrees subtrees{[&](const ChunkId& id) { return file->find(id); },
                                           [&](const ChunkMesh& top) -> Result<void> {
-                                              if (auto done = file->put(terrain, top, ChunkRow::kDraft);
-                                                  !done)
-                                                  return done;
+                                              const auto packed =
+                                                  file->packed(terrain, top, ChunkRow::kDraft);
+                                              if (auto done = file->put(packed); !done) return done;
                                               return file->commit();
                                           }};
-    if (auto done = ChunkBuilder(terrain, chunk_errors(terrain)).build(keep, subtrees); !done) return done;
+    if (auto done = ChunkBuilder(terrain, building).build(keep, subtrees); !done) return done;
     return file->finish();
 }
 
 Result<void> provide_chunks(const Scene& scene, Terrain& terrain, const ChunkProgress& progress) {
     if (!ChunkFile::is_there(scene)) {
         bool stopped = false;
-        const auto built = make_chunk_file(scene, terrain, [&](double part) {
+        const auto built = make_chunk_file(scene, terrain, {chunk_errors(terrain)}, [&](double part) {
             stopped = !progress(part);
             return !stopped;
         });

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "geo/result.hpp"
+#include "lod/lstr/chunk_builder.hpp"
 #include "lod/scene/scene.hpp"
 #include "lod/terrain.hpp"
 
@@ -14,7 +15,8 @@ using ChunkProgress = std::function<bool(double)>;
 /// Makes a scene's chunks.bin, in place of another. What an earlier call had done when it was stopped is not
 /// done again, and the file is the same to the byte. Fails with ErrorKind::input where it cannot be written,
 /// or was stopped.
-Result<void> make_chunk_file(const Scene& scene, const Terrain& terrain, const ChunkProgress& progress);
+Result<void> make_chunk_file(const Scene& scene, const Terrain& terrain, const ChunkBuilding& building,
+                             const ChunkProgress& progress);
 
 /// Gives a terrain its scene's quadtree: from the file, which is made first where it is not there, or of
 /// another state of the scene, or in memory where the file cannot be written.

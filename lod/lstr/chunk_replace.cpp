@@ -200,9 +200,11 @@ Result<double> replace_chunk(const Scene& scene, const Terrain& terrain, const C
 
     auto writer = ChunkFileWriter::on_copy(scene.path() / ChunkFile::kName, file->index());
     if (!writer) return writer.error();
-    Result<void> done = writer->put(terrain, mesh, ChunkRow::kReplaced);
+    Result<void> done = writer->put(writer->packed(terrain, mesh, ChunkRow::kReplaced));
     for (const ChunkMesh& child : children) {
-        if (done) done = writer->put(terrain, child, file->is_replaced(child.id) ? ChunkRow::kReplaced : 0);
+        if (!done) break;
+        const std::uint32_t flags = file->is_replaced(child.id) ? ChunkRow::kReplaced : 0;
+        done = writer->put(writer->packed(terrain, child, flags));
     }
     if (done) done = writer->finish();
     if (!done) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace relevo::lod {
 
@@ -16,11 +17,14 @@ ChunkNode chunk_node(const Terrain& terrain, const ChunkMesh& mesh) {
 
 Result<MemoryChunks> MemoryChunks::build(const Terrain& terrain, const ChunkErrors& errors) {
     MemoryChunks made;
-    const auto keep = [&](const ChunkMesh& mesh) -> Result<void> {
-        made.entries_[mesh.id] = {chunk_node(terrain, mesh), std::make_shared<const ChunkMesh>(mesh)};
-        return {};
+    const auto keep = [&](const ChunkMesh& mesh) -> ChunkBuilder::Writing {
+        Entry entry{chunk_node(terrain, mesh), std::make_shared<const ChunkMesh>(mesh)};
+        return [&made, entry = std::move(entry)]() -> Result<void> {
+            made.entries_[entry.mesh->id] = entry;
+            return {};
+        };
     };
-    if (auto done = ChunkBuilder(terrain, errors).build(keep); !done) return done.error();
+    if (auto done = ChunkBuilder(terrain, {errors}).build(keep); !done) return done.error();
     return made;
 }
 

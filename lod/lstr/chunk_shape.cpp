@@ -39,6 +39,17 @@ float moved(const PlacedPost& post, const glm::dvec3& to) {
 
 }  // namespace
 
+bool is_before(const PlacedPost& a, const PlacedPost& b) {
+    return is_before(a.at, b.at);
+}
+
+std::uint32_t place_of(const std::vector<PlacedPost>& posts, const PlacedPost& post) {
+    const auto found =
+        std::lower_bound(posts.begin(), posts.end(), post,
+                         [](const PlacedPost& a, const PlacedPost& b) { return is_before(a, b); });
+    return static_cast<std::uint32_t>(found - posts.begin());
+}
+
 std::vector<std::uint32_t> ChunkShape::side(Side side) const {
     std::vector<std::uint32_t> found;
     for (std::uint32_t v = 0; v < posts.size(); ++v) {

@@ -21,6 +21,12 @@ struct ChunkShape {
     std::vector<std::uint32_t> side(Side side) const;
 };
 
+/// Row by row: the order of a shape's posts.
+bool is_before(const PlacedPost& a, const PlacedPost& b);
+
+/// Of a post in a list in that order.
+std::uint32_t place_of(const std::vector<PlacedPost>& posts, const PlacedPost& post);
+
 /// Where a coarser mesh is: what its finer vertices move to.
 class CoarseSurface {
   public:

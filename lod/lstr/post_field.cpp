@@ -12,9 +12,13 @@
 namespace relevo::lod {
 
 PostField::PostField(const Terrain& terrain, const GridPoint& first, int cells, int stride)
-    : terrain_(&terrain), first_(first), cells_(cells), stride_(stride), side_(cells / stride + 1) {
+    : terrain_(&terrain),
+      first_(first),
+      cells_(cells),
+      stride_(stride),
+      side_(cells / stride + 1),
+      H_(side_, side_) {
     const auto posts = static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_);
-    H_.resize(posts);
     constexpr std::size_t kBeyond = 7;  // rows are read by eights
     for (std::vector<float>* each : {&x_, &y_, &z_, &valid_}) each->resize(posts + kBeyond);
 }
@@ -75,8 +79,8 @@ bool PostField::take(const GridPoint& corner, int level, const BlockHeights& blo
             const std::size_t i = index({column, row});
             const bool valid = !std::isnan(block.data.at(c, r));
             any = any || valid;
-            if (!valid && (valid_[i] > 0 || H_[i] != 0)) continue;
-            H_[i] = block.filled.at(c, r);
+            if (!valid && (valid_[i] > 0 || H_.samples()[i] != 0)) continue;
+            H_.samples()[i] = block.filled.at(c, r);
             valid_[i] = valid ? 1.F : 0.F;
         }
     }
@@ -85,7 +89,7 @@ bool PostField::take(const GridPoint& corner, int level, const BlockHeights& blo
 }
 
 PlacedPost PostField::post(const GridPoint& at) const {
-    const float H = H_[index(at)];
+    const float H = height(at);
     return {at, H, terrain_->position(at.column, at.row, static_cast<double>(H), 1)};
 }
 
@@ -174,20 +178,18 @@ double error_at(const PlacedPost& post, const PlacedTriangle& triangle) {
     return glm::distance(Plane(triangle, glm::dvec3(0)).at(post.at.column, post.at.row), post.position);
 }
 
-double PostField::off(const glm::dvec3& drawn, const GridPoint& from, const GridPoint& to,
-                      double part) const {
-    const auto inside = [&](const GridPoint& at) {
-        return at.column >= first_.column && at.row >= first_.row && at.column <= first_.column + cells_ &&
-               at.row <= first_.row + cells_;
-    };
-    if (!inside(from) || !inside(to)) return 0;
-    const std::size_t i = index(from);
-    const std::size_t j = index(to);
+inline double PostField::off_squared(const glm::dvec3& drawn, int column, int row, int to_column, int to_row,
+                                     double part) const {
+    const auto is_here = [this](int at) { return at >= 0 && at < side_; };
+    if (!is_here(column) || !is_here(row) || !is_here(to_column) || !is_here(to_row)) return 0;
+    const auto i = static_cast<std::size_t>(row * side_ + column);
+    const auto j = static_cast<std::size_t>(to_row * side_ + to_column);
     if (!(valid_[i] > 0 && valid_[j] > 0)) return 0;
     const auto mixed = [part](float p, float q) {
         return (1 - part) * static_cast<double>(p) + part * static_cast<double>(q);
     };
-    return glm::distance(drawn, {mixed(x_[i], x_[j]), mixed(y_[i], y_[j]), mixed(z_[i], z_[j])});
+    const glm::dvec3 off = drawn - glm::dvec3(mixed(x_[i], x_[j]), mixed(y_[i], y_[j]), mixed(z_[i], z_[j]));
+    return glm::dot(off, off);
 }
 
 double PostField::edge_error(const PlacedPost& a, const PlacedPost& b, double enough) const {
@@ -197,18 +199,17 @@ double PostField::edge_error(const PlacedPost& a, const PlacedPost& b, double en
     const glm::dvec2 way(scaled(b.at.column - a.at.column, 0), scaled(b.at.row - a.at.row, 0));
     const glm::dvec3 start = a.position - origin_;
     const glm::dvec3 along = b.position - a.position;
-    const auto post = [&](int column, int row) {
-        return GridPoint{first_.column + column * stride_, first_.row + row * stride_};
-    };
-    // Lines of a family are where (x, y) has a product with `across` that is a multiple of `every`.
+    // Roots are taken once, at the end: a little more than enough then surely is.
+    const double limit = enough * enough * (1 + 1e-15);
     double largest = 0;
+    // Lines of a family are where (x, y) has a product with `across` that is a multiple of `every`.
     const auto cross = [&](const glm::dvec2& across, int every, const auto& between) {
         const double begin = glm::dot(across, from);
         const double growth = glm::dot(across, way);
         if (growth == 0) return;
         const double low = std::min(begin, begin + growth), high = std::max(begin, begin + growth);
         for (int line = static_cast<int>(std::floor(low / every)) + 1;
-             line * every < high && largest <= enough; ++line) {
+             line * every < high && largest <= limit; ++line) {
             const double part = (line * every - begin) / growth;
             const glm::dvec2 at = from + part * way;
             largest = std::max(largest, between(at, line * every, start + part * along));
@@ -216,22 +217,22 @@ double PostField::edge_error(const PlacedPost& a, const PlacedPost& b, double en
     };
     cross({1, 0}, 1, [&](const glm::dvec2& at, int column, const glm::dvec3& drawn) {
         const int row = static_cast<int>(std::floor(at.y));
-        return off(drawn, post(column, row), post(column, row + 1), at.y - row);
+        return off_squared(drawn, column, row, column, row + 1, at.y - row);
     });
     cross({0, 1}, 1, [&](const glm::dvec2& at, int row, const glm::dvec3& drawn) {
         const int column = static_cast<int>(std::floor(at.x));
-        return off(drawn, post(column, row), post(column + 1, row), at.x - column);
+        return off_squared(drawn, column, row, column + 1, row, at.x - column);
     });
     // Diagonals (soar/cell.hpp) run along x - y and x + y that are even.
     cross({1, -1}, 2, [&](const glm::dvec2& at, int line, const glm::dvec3& drawn) {
         const int column = static_cast<int>(std::floor(at.x));
-        return off(drawn, post(column, column - line), post(column + 1, column + 1 - line), at.x - column);
+        return off_squared(drawn, column, column - line, column + 1, column + 1 - line, at.x - column);
     });
     cross({1, 1}, 2, [&](const glm::dvec2& at, int line, const glm::dvec3& drawn) {
         const int column = static_cast<int>(std::floor(at.x));
-        return off(drawn, post(column, line - column), post(column + 1, line - column - 1), at.x - column);
+        return off_squared(drawn, column, line - column, column + 1, line - column - 1, at.x - column);
     });
-    return largest;
+    return std::sqrt(largest);
 }
 
 PostField::Worst PostField::worst(const PlacedTriangle& triangle, const GridPoint& first, int cells) const {

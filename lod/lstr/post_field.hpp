@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 
 #include "geo/result.hpp"
+#include "lod/scene/raster.hpp"
 #include "lod/soar/diamond.hpp"
 #include "lod/terrain.hpp"
 
@@ -34,7 +35,9 @@ class PostField {
                                   bool judges = true);
 
     PlacedPost post(const GridPoint& at) const;
-    float height(const GridPoint& at) const { return H_[index(at)]; }
+    float height(const GridPoint& at) const { return H_.samples()[index(at)]; }
+    /// Of all posts, voids and padding filled.
+    const Raster<float>& heights() const { return H_; }
     bool is_valid(const GridPoint& at) const { return valid_[index(at)] > 0; }
 
     /// How far valid posts of the square in a triangle or on its edges are from the triangle's point at the
@@ -65,9 +68,10 @@ class PostField {
     /// Calls visit(row, first column, posts) for each row of the square's posts in a triangle.
     template <class Visit>
     void for_each_run(const PlacedTriangle& triangle, const Visit& visit) const;
-    /// Distance of a place on an edge from the one between two posts; 0 where one of them is not valid or not
-    /// here.
-    double off(const glm::dvec3& drawn, const GridPoint& from, const GridPoint& to, double part) const;
+    /// Distance, squared, of a place on an edge from the one between two posts, counted in the field; 0 where
+    /// one of them is not valid or not here.
+    double off_squared(const glm::dvec3& drawn, int column, int row, int to_column, int to_row,
+                       double part) const;
     Result<void> read_heights(const Pyramid& pyramid);
     /// Has the block any data in the square?
     bool take(const GridPoint& corner, int level, const BlockHeights& block);
@@ -82,7 +86,7 @@ class PostField {
     int stride_;
     int side_;  // posts
     glm::dvec3 origin_{0};
-    std::vector<float> H_;          // voids and padding filled
+    Raster<float> H_;
     std::vector<float> x_, y_, z_;  // from the origin, metres
     std::vector<float> valid_;      // 1 or 0
     bool has_data_ = false;

@@ -119,15 +119,18 @@ int run_build(const lod::Terrain& terrain) {
     const lod::ChunkErrors errors = errors_for(terrain);
     const double before_mib = peak_mib();
     const double s = seconds_of([&] {
-        const auto done =
-            lod::ChunkBuilder(terrain, errors).build([&](const lod::ChunkMesh& mesh) -> Result<void> {
-                Level& level = levels[static_cast<std::size_t>(mesh.id.level)];
+        const auto count = [&](const lod::ChunkMesh& mesh) -> lod::ChunkBuilder::Writing {
+            return [&, id = mesh.id, vertices = mesh.vertices.size(), triangles = mesh.triangles.size(),
+                    error_m = mesh.error_m]() -> Result<void> {
+                Level& level = levels[static_cast<std::size_t>(id.level)];
                 ++level.nodes;
-                level.vertices += mesh.vertices.size();
-                level.triangles += mesh.triangles.size();
-                level.errors_m.push_back(mesh.error_m);
+                level.vertices += vertices;
+                level.triangles += triangles;
+                level.errors_m.push_back(error_m);
                 return {};
-            });
+            };
+        };
+        const auto done = lod::ChunkBuilder(terrain, {errors}).build(count);
         if (!done) fmt::print("{}\n", done.error().message);
     });
     fmt::print(
