@@ -10,6 +10,7 @@ find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(glm REQUIRED)
+find_package(meshoptimizer REQUIRED)
 
 if(RELEVO_VIEWER)
   find_package(glfw3 REQUIRED)

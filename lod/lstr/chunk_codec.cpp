@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "lod/lstr/triangle_coding.hpp"
 #include "lod/scene/deflate.hpp"
 
 namespace relevo::lod {
@@ -16,79 +17,108 @@ namespace {
 
 constexpr double kRiseSteps = 512;
 
-/// Whole numbers, small ones in few bytes: seven bits a byte, the sign in the lowest bit.
-class NumberWriter {
-  public:
-    void add(std::int64_t value) {
-        auto bits = (static_cast<std::uint64_t>(value) << 1) ^ static_cast<std::uint64_t>(value >> 63);
-        for (; bits > 0x7F; bits >>= 7) bytes_.push_back(static_cast<std::byte>(bits | 0x80));
-        bytes_.push_back(static_cast<std::byte>(bits));
-    }
-    const std::vector<std::byte>& bytes() const { return bytes_; }
+/// Heights are whole multiples of a power of two from this one on, else their bits.
+constexpr int kFinestUnit = -7;
+constexpr int kCoarsestUnit = 13;
+constexpr int kNoUnit = kFinestUnit - 1;
 
-  private:
-    std::vector<std::byte> bytes_;
-};
-
-class NumberReader {
-  public:
-    explicit NumberReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
-
-    /// 0 and failed() from the first on that is not there.
-    std::int64_t next() {
-        std::uint64_t bits = 0;
-        for (int shift = 0; shift < 64; shift += 7) {
-            if (at_ == bytes_.size()) break;
-            const auto byte = static_cast<std::uint64_t>(bytes_[at_++]);
-            bits |= (byte & 0x7F) << shift;
-            if (byte < 0x80)
-                return static_cast<std::int64_t>(bits >> 1) ^ -static_cast<std::int64_t>(bits & 1);
-        }
-        failed_ = true;
-        return 0;
-    }
-    bool failed() const { return failed_; }
-    bool at_end() const { return at_ == bytes_.size(); }
-
-  private:
-    std::span<const std::byte> bytes_;
-    std::size_t at_ = 0;
-    bool failed_ = false;
-};
+/// Which triangles are coded (triangle_coding.hpp).
+constexpr std::int64_t kList = 0;
+constexpr std::int64_t kStrips = 1;
 
 std::int64_t bits_of(float H) {
     return std::bit_cast<std::int32_t>(H);
+}
+
+/// Exponent of the largest power of two of which all heights are whole multiples, small enough for whole
+/// numbers; kNoUnit: there is none.
+int unit_of(const ChunkMesh& mesh) {
+    int unit = kCoarsestUnit;
+    for (const ChunkVertex& v : mesh.vertices) {
+        const auto is_whole = [&] {
+            const float whole = std::ldexp(v.H, -unit);
+            return whole == std::trunc(whole) && std::abs(whole) < 0x1p24F &&
+                   !(v.H == 0 && std::signbit(v.H));
+        };
+        while (unit > kNoUnit && !is_whole()) --unit;
+    }
+    return unit;
+}
+
+/// Row by row how many there are, then their columns from the one before on.
+void write_posts(const ChunkMesh& mesh, NumberWriter& numbers) {
+    const GridPoint first = mesh.id.first();
+    NumberWriter columns;
+    auto v = mesh.vertices.begin();
+    for (int row = first.row; row <= first.row + mesh.id.cells(); ++row) {
+        std::int64_t count = 0;
+        int last = first.column;
+        for (; v != mesh.vertices.end() && v->at.row == row; ++v, ++count) {
+            columns.add(v->at.column - last);
+            last = v->at.column;
+        }
+        numbers.add(count);
+    }
+    numbers.add_bytes(columns.bytes());
+}
+
+bool read_posts(NumberReader& numbers, ChunkMesh& mesh) {
+    const GridPoint first = mesh.id.first();
+    const int cells = mesh.id.cells();
+    auto v = mesh.vertices.begin();
+    for (int row = first.row; row <= first.row + cells; ++row) {
+        const std::int64_t count = numbers.next();
+        if (count < 0 || count > mesh.vertices.end() - v) return false;
+        for (const auto end = v + count; v != end; ++v) v->at = {first.column, row};
+    }
+    if (v != mesh.vertices.end()) return false;
+    std::int64_t last = 0;
+    for (v = mesh.vertices.begin(); v != mesh.vertices.end(); ++v) {
+        if (v == mesh.vertices.begin() || (v - 1)->at.row != v->at.row) last = first.column;
+        last += numbers.next();
+        if (last < first.column || last > first.column + cells) return false;
+        v->at.column = static_cast<int>(last);
+    }
+    return true;
+}
+
+void write_triangles(const std::vector<IndexTriangle>& triangles, NumberWriter& numbers) {
+    NumberWriter list, strips;
+    write_list(triangles, list);
+    write_strips(triangles, strips);
+    const bool is_list = deflated(list.bytes()).size() < deflated(strips.bytes()).size();
+    numbers.add(is_list ? kList : kStrips);
+    numbers.add_bytes((is_list ? list : strips).bytes());
+}
+
+bool read_triangles(NumberReader& numbers, ChunkMesh& mesh) {
+    const std::int64_t coding = numbers.next();
+    if (coding != kList && coding != kStrips) return false;
+    const auto vertices = static_cast<std::int64_t>(mesh.vertices.size());
+    return coding == kList ? read_list(numbers, vertices, mesh.triangles)
+                           : read_strips(numbers, vertices, mesh.triangles);
 }
 
 }  // namespace
 
 std::vector<std::byte> encode_chunk(const ChunkMesh& mesh, double allowed_m) {
     NumberWriter numbers;
-    const GridPoint first = mesh.id.first();
     numbers.add(static_cast<std::int64_t>(mesh.vertices.size()));
     numbers.add(static_cast<std::int64_t>(mesh.triangles.size()));
-    GridPoint last = first;
-    for (const ChunkVertex& v : mesh.vertices) {
-        numbers.add(v.at.row - last.row);
-        numbers.add(v.at.column - last.column);
-        last = v.at;
-    }
+    write_posts(mesh, numbers);
+    const int unit = unit_of(mesh);
+    numbers.add(unit);
     std::int64_t last_H = 0;
     for (const ChunkVertex& v : mesh.vertices) {
-        numbers.add(bits_of(v.H) - last_H);
-        last_H = bits_of(v.H);
+        const std::int64_t H = unit == kNoUnit ? bits_of(v.H) : std::llround(std::ldexp(v.H, -unit));
+        numbers.add(H - last_H);
+        last_H = H;
     }
     for (const ChunkVertex& v : mesh.vertices) {
         const double rise_m = static_cast<double>(v.coarse_H) - static_cast<double>(v.H);
         numbers.add(std::llround(rise_m / allowed_m * kRiseSteps));
     }
-    std::int64_t last_a = 0;
-    for (const auto& [a, b, c] : mesh.triangles) {
-        numbers.add(static_cast<std::int64_t>(a) - last_a);
-        numbers.add(static_cast<std::int64_t>(b) - a);
-        numbers.add(static_cast<std::int64_t>(c) - b);
-        last_a = a;
-    }
+    write_triangles(mesh.triangles, numbers);
     for (const auto& side : mesh.sides) {
         numbers.add(static_cast<std::int64_t>(side.size()));
         std::int64_t last_vertex = 0;
@@ -126,21 +156,14 @@ Result<ChunkMesh> decode_chunk(std::span<const std::byte> bytes, const ChunkId& 
     if (vertices < 0 || vertices > most || triangles < 0 || triangles > most) return damaged;
     mesh.vertices.resize(static_cast<std::size_t>(vertices));
     mesh.triangles.resize(static_cast<std::size_t>(triangles));
-    const GridPoint first = id.first();
-    std::int64_t row = first.row;
-    std::int64_t column = first.column;
-    for (ChunkVertex& v : mesh.vertices) {
-        row += numbers.next();
-        column += numbers.next();
-        const bool inside = row >= first.row && row <= first.row + id.cells() && column >= first.column &&
-                            column <= first.column + id.cells();
-        if (!inside) return damaged;
-        v.at = {static_cast<int>(column), static_cast<int>(row)};
-    }
+    if (!read_posts(numbers, mesh)) return damaged;
+    const std::int64_t unit = numbers.next();
+    if (unit < kNoUnit || unit > kCoarsestUnit) return damaged;
     std::int64_t H = 0;
     for (ChunkVertex& v : mesh.vertices) {
         H += numbers.next();
-        v.H = std::bit_cast<float>(static_cast<std::int32_t>(H));
+        v.H = unit == kNoUnit ? std::bit_cast<float>(static_cast<std::int32_t>(H))
+                              : std::ldexp(static_cast<float>(H), static_cast<int>(unit));
         if (!std::isfinite(v.H)) return damaged;
     }
     for (ChunkVertex& v : mesh.vertices) {
@@ -148,15 +171,8 @@ Result<ChunkMesh> decode_chunk(std::span<const std::byte> bytes, const ChunkId& 
         v.coarse_H = static_cast<float>(static_cast<double>(v.H) + rise_m);
         if (!std::isfinite(v.coarse_H)) return damaged;
     }
+    if (!read_triangles(numbers, mesh)) return damaged;
     const auto is_vertex = [&](std::int64_t i) { return i >= 0 && i < vertices; };
-    std::int64_t a = 0;
-    for (IndexTriangle& t : mesh.triangles) {
-        a += numbers.next();
-        const std::int64_t b = a + numbers.next();
-        const std::int64_t c = b + numbers.next();
-        if (!is_vertex(a) || !is_vertex(b) || !is_vertex(c)) return damaged;
-        t = {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(c)};
-    }
     for (auto& side : mesh.sides) {
         const std::int64_t count = numbers.next();
         if (count < 0 || count > vertices) return damaged;

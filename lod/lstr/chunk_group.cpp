@@ -4,11 +4,13 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "lod/lstr/chunk_shape.hpp"
+#include "lod/lstr/triangle_order.hpp"
 #include "lod/soar/cell.hpp"
 
 namespace relevo::lod {
@@ -27,7 +29,7 @@ std::vector<IndexTriangle> cell_mesh(int cells) {
                 triangles.push_back({index(t[0]), index(t[1]), index(t[2])});
         }
     }
-    return triangles;
+    return cache_order(std::move(triangles), static_cast<std::size_t>((cells + 1) * (cells + 1)));
 }
 
 /// The sphere around a box in the fixed frame, and what it moves.

@@ -1,9 +1,12 @@
 #include "lod/lstr/chunk_mesh.hpp"
 
+#include "lod/lstr/triangle_order.hpp"
+
 namespace relevo::lod {
 
 ChunkMesh finished(const ChunkShape& shape, const CoarseSurface* coarse) {
-    ChunkMesh mesh{shape.id, shape.error_m, shape.error_m, {}, shape.triangles, {}};
+    ChunkMesh mesh{
+        shape.id, shape.error_m, shape.error_m, {}, strip_order(shape.triangles, shape.posts.size()), {}};
     mesh.vertices.reserve(shape.posts.size());
     for (const PlacedPost& post : shape.posts)
         mesh.vertices.push_back({post.at, post.H, coarse ? coarse->height(post) : post.H});

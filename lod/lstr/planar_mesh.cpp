@@ -47,8 +47,9 @@ PlanarMesh::PlanarMesh(std::vector<PlacedPost> posts, const std::vector<IndexTri
         const auto from = pairs.begin() + begin[v];
         const auto to = pairs.begin() + begin[v + 1];
         if (from == to) continue;
-        // On the border the chain begins where nothing comes before.
-        auto start = from;
+        // Whatever the order of the triangles, the ring is the same: a mesh that was read makes the same
+        // ones. On the border the chain begins where nothing comes before.
+        auto start = std::min_element(from, to);
         if (on_border_[v]) {
             start = std::find_if(from, to, [&](const auto& pair) {
                 return std::none_of(from, to, [&](const auto& other) { return other.second == pair.first; });

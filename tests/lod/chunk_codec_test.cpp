@@ -1,5 +1,7 @@
 #include "lod/lstr/chunk_codec.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include <gtest/gtest.h>
@@ -27,13 +29,20 @@ class ChunkCodec : public testing::Test {
 
 TEST_F(ChunkCodec, GivesBackWhatItTook) {
     const auto bytes = encode_chunk(mesh_, kFirst);
-    const auto back = decode_chunk(bytes, mesh_.id, kFirst, "trial");
+    auto back = decode_chunk(bytes, mesh_.id, kFirst, "trial");
     ASSERT_TRUE(back);
     ASSERT_EQ(back->vertices.size(), mesh_.vertices.size());
     for (std::size_t i = 0; i < mesh_.vertices.size(); ++i) {
         EXPECT_EQ(back->vertices[i].at, mesh_.vertices[i].at);
         EXPECT_EQ(back->vertices[i].H, mesh_.vertices[i].H);
         EXPECT_NEAR(back->vertices[i].coarse_H, mesh_.vertices[i].coarse_H, kFirst / 1000);
+    }
+    // Another corner may be the first.
+    ASSERT_EQ(back->triangles.size(), mesh_.triangles.size());
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+        const auto first =
+            std::find(back->triangles[i].begin(), back->triangles[i].end(), mesh_.triangles[i].front());
+        std::rotate(back->triangles[i].begin(), first, back->triangles[i].end());
     }
     EXPECT_EQ(back->triangles, mesh_.triangles);
     for (std::size_t side = 0; side < kSides; ++side) {
@@ -44,6 +53,30 @@ TEST_F(ChunkCodec, GivesBackWhatItTook) {
         }
     }
     EXPECT_EQ(encode_chunk(mesh_, kFirst), bytes);
+}
+
+TEST_F(ChunkCodec, HeightsComeBackToTheBit) {
+    const auto of_heights = [&](auto height) {
+        ChunkMesh mesh = mesh_;
+        for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+            mesh.vertices[i].H = mesh.vertices[i].coarse_H = height(i);
+        const auto bytes = encode_chunk(mesh, kFirst);
+        const auto back = decode_chunk(bytes, mesh.id, kFirst, "trial");
+        EXPECT_TRUE(back);
+        for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+            EXPECT_EQ(back->vertices[i].H, mesh.vertices[i].H);
+            EXPECT_EQ(std::signbit(back->vertices[i].H), std::signbit(mesh.vertices[i].H));
+        }
+        return bytes.size();
+    };
+    const auto noise = [](std::size_t i) { return test::noise(static_cast<int>(i), 3); };
+    const auto whole = [&](std::size_t i) { return static_cast<float>(std::round(8000 * noise(i) - 400)); };
+    const auto any = [&](std::size_t i) { return static_cast<float>(8000 * noise(i) - 400); };
+    EXPECT_LT(of_heights(whole), of_heights(any));
+    of_heights([&](std::size_t i) { return whole(i) / 64; });
+    of_heights([](std::size_t i) { return i % 2 == 0 ? 0.F : -0.F; });
+    of_heights([](std::size_t i) { return i % 2 == 0 ? 1e-38F : 3e38F; });
+    of_heights([](std::size_t) { return 0.F; });
 }
 
 TEST_F(ChunkCodec, DamagedBytesAreSaid) {

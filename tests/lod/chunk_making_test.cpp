@@ -18,16 +18,16 @@ namespace {
 class ChunkMaking : public testing::Test {
   protected:
     ChunkMaking() {
-        test::SceneParts parts = test::made_up_scene(350, 270);
-        for (int row = 0; row < 270; ++row) {
-            for (int column = 0; column < 350; ++column) {
+        test::SceneParts parts = test::made_up_scene(280, 200);
+        for (int row = 0; row < 200; ++row) {
+            for (int column = 0; column < 280; ++column) {
                 parts.heights.at(column, row) =
                     static_cast<float>(300 * std::sin(0.05 * column) * std::cos(0.03 * row) +
                                        40 * std::sin(0.31 * column + 0.2 * row) + test::noise(column, row));
             }
         }
         parts.info.void_posts = 0;
-        parts.info.valid_posts = 350 * 270;
+        parts.info.valid_posts = 280 * 200;
         parts.info.resampling.posts = parts.info.valid_posts;
         parts.metrics = build_metrics(parts.info.frame, parts.undulations(), parts.heights);
         EXPECT_TRUE(test::write_scene(parts, folder_ / "scene"));
@@ -62,12 +62,9 @@ class ChunkMaking : public testing::Test {
 TEST_F(ChunkMaking, StoppedAnywhereGoesOnToTheSameBytes) {
     const int nodes = make(kNever);
     ASSERT_TRUE(is_done_);
-    ASSERT_GT(nodes, 40);
+    ASSERT_GT(nodes, 25);
     const std::string whole = file();
-    remove_file();
-    ASSERT_EQ(make(kNever), nodes);
-    EXPECT_TRUE(file() == whole);
-    for (const int stop : {3, 7, 21, 22, 30, nodes - 1}) {
+    for (const int stop : {6, 13, nodes - 1}) {
         remove_file();
         EXPECT_EQ(make(stop), stop);
         EXPECT_FALSE(is_done_);
@@ -85,8 +82,8 @@ TEST_F(ChunkMaking, StoppedAgainAndAgainComesToAnEnd) {
     const std::string whole = file();
     remove_file();
     int runs = 0;
-    for (is_done_ = false; !is_done_ && runs < 100; ++runs) make(9);
-    EXPECT_GT(runs, 5);
+    for (is_done_ = false; !is_done_ && runs < 100; ++runs) make(7);
+    EXPECT_GT(runs, 3);
     EXPECT_TRUE(file() == whole);
 }
 
@@ -94,7 +91,7 @@ TEST_F(ChunkMaking, OfAnotherMarginOrFilterBeginsAnew) {
     const int nodes = make(kNever);
     const std::string usual = file();
     building_.errors.first_m *= 3;
-    make(30);
+    make(20);
     // The file of before stays until then.
     EXPECT_TRUE(file() == usual);
     EXPECT_TRUE(ChunkFile::is_there(*scene_));
