@@ -1,7 +1,11 @@
+#include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <map>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -20,6 +24,8 @@ struct ChunksOptions : Common {
     std::filesystem::path scene;
     std::string node;
     std::filesystem::path mesh;
+    std::string margin = "screen";
+    lod::RemovalTest filter = lod::RemovalTest::pairs;
 };
 
 /// LEVEL/COLUMN/ROW.
@@ -45,18 +51,46 @@ Result<Opened> open(const ChunksOptions& options) {
     return Opened{*std::move(scene), *std::move(terrain)};
 }
 
+/// \param margin  metres (2m), per cent of the range of the heights (0.1%), or what suits the screen
+Result<lod::ChunkErrors> parse_margin(const std::string& margin, const Opened& opened) {
+    if (margin == "screen") return lod::chunk_errors(opened.terrain);
+    double number = 0;
+    const char* end = margin.data() + margin.size();
+    const auto [unit, status] = std::from_chars(margin.data(), end, number);
+    const std::string_view rest(unit, static_cast<std::size_t>(end - unit));
+    if (status != std::errc() || !std::isfinite(number) || number <= 0 || (rest != "m" && rest != "%")) {
+        return Error{ErrorKind::usage,
+                     fmt::format("--margin {}: it is in metres (2m), per cent of the range of the heights "
+                                 "(0.1%), or `screen`",
+                                 margin)};
+    }
+    if (rest == "m") return lod::ChunkErrors{number};
+    const double range_m = opened.scene.info().height_max_m - opened.scene.info().height_min_m;
+    if (!(range_m > 0)) {
+        return Error{ErrorKind::input,
+                     fmt::format("--margin {}: all heights are the same; give it in metres", margin)};
+    }
+    return lod::ChunkErrors{0.01 * number * range_m};
+}
+
 Result<void> make(const ChunksOptions& options) {
     auto opened = open(options);
     if (!opened) return opened.error();
-    const lod::ChunkBuilding building{lod::chunk_errors(opened->terrain)};
-    if (auto done = make_chunks(opened->scene, opened->terrain, building, options); !done) return done;
+    const auto errors = parse_margin(options.margin, *opened);
+    if (!errors) return errors.error();
+    if (auto done = make_chunks(opened->scene, opened->terrain, {*errors, options.filter}, options); !done)
+        return done;
     const auto file = lod::ChunkFile::open(opened->scene, opened->terrain);
     if (!file) return file.error();
     if (options.json) {
-        std::cout << nlohmann::ordered_json{{"nodes", file->index().size()}, {"bytes", file->bytes()}}.dump(2)
+        std::cout << nlohmann::ordered_json{{"nodes", file->index().size()},
+                                            {"bytes", file->bytes()},
+                                            {"margin_m", file->errors().first_m}}
+                         .dump(2)
                   << '\n';
     } else {
-        fmt::print("{}: {} nodes, {} bytes\n", file->name(), file->index().size(), file->bytes());
+        fmt::print("{}: {} nodes, {} bytes, margin {:.3g} m\n", file->name(), file->index().size(),
+                   file->bytes(), file->errors().first_m);
     }
     return {};
 }
@@ -145,8 +179,19 @@ void add_chunks(CLI::App& program, Action& action) {
         added->callback([options, &action, act] { action = [options, act] { return act(*options); }; });
         return added;
     };
-    add("make", "Make the file, or go on with what was stopped", false, make)
-        ->footer("Example: relevo chunks make fuji.relevo");
+    CLI::App* made = add("make", "Make the file, or go on with what was stopped", false, make);
+    made->add_option(
+            "--margin", options->margin,
+            "How far level 1 may be off: metres (2m), per cent of the range of the heights (0.1%), or "
+            "`screen`, 0.15 posts")
+        ->capture_default_str();
+    made->add_option("--filter", options->filter,
+                     "Which posts go first: those near the means of `pairs` that "
+                     "face each other, or near the `mean` of all eight around")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, lod::RemovalTest>{
+            {"pairs", lod::RemovalTest::pairs}, {"mean", lod::RemovalTest::mean}}))
+        ->default_str("pairs");
+    made->footer("Example: relevo chunks make fuji.relevo --margin 2m");
     add("extract", "Write a node's mesh", true, extract)
         ->footer("Example: relevo chunks extract fuji.relevo 2/3/1 node.obj");
     add("replace", "Put another mesh in a node's place; its sides must stay the same", true, replace)

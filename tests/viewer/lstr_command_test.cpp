@@ -62,6 +62,30 @@ TEST_F(LstrCommand, TheSameSceneGivesTheSameFile) {
     EXPECT_TRUE(contents() == first);
 }
 
+TEST_F(LstrCommand, AMarginIsOfMetresOfTheRangeOrOfTheScreen) {
+    const auto margin_m = [&](const std::string& flags) {
+        const auto run = relevo("chunks make " + scene_ + " --json " + flags);
+        EXPECT_EQ(run.status, 0) << run.err;
+        return nlohmann::json::parse(run.out)["margin_m"].get<double>();
+    };
+    const double usual_m = margin_m("");
+    const auto usual_bytes = fs::file_size(chunks_);
+    EXPECT_EQ(margin_m("--margin screen --filter pairs"), usual_m);
+    EXPECT_EQ(fs::file_size(chunks_), usual_bytes);
+    const double of_range_m = margin_m("--margin 0.1%");
+    EXPECT_NEAR(margin_m("--margin 10%"), 100 * of_range_m, 1e-6 * of_range_m);
+    EXPECT_EQ(margin_m("--margin 7.5m --filter mean"), 7.5);
+    // A file of another margin does as well: it is not made anew, and the picture keeps to tau.
+    const auto made = fs::last_write_time(chunks_);
+    const auto run = render("--json --measure-error --tau 1");
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_LE(nlohmann::json::parse(run.out)["max_error_px"].get<double>(), 1);
+    EXPECT_EQ(fs::last_write_time(chunks_), made);
+    for (const char* wrong : {"2", "m", "-1m", "0m", "nan%", "2m3", "2 m"})
+        EXPECT_EQ(relevo("chunks make " + scene_ + " --margin '" + wrong + "'").status, 2) << wrong;
+    EXPECT_EQ(relevo("chunks make " + scene_ + " --filter half").status, 2);
+}
+
 TEST_F(LstrCommand, ADamagedFileIsSaid) {
     ASSERT_EQ(render("").status, 0);
     const auto size = fs::file_size(chunks_);
