@@ -33,11 +33,17 @@ Result<lod::PostSet> LstrGenerator::simplify(double percent, lod::RemovalTest te
     return lod::removable_posts(*heights, lod::margin_of_range(*heights, percent), test);
 }
 
-Result<void> LstrGenerator::generate(const lod::ChunkProgress& progress) const {
-    if (lod::ChunkFile::is_there(scene_)) return {};
+Result<void> LstrGenerator::generate(const Simplification& by, const lod::ChunkProgress& progress) const {
     const auto terrain = lod::Terrain::open(scene_, lod::ErrorMetric::bounded, {});
     if (!terrain) return terrain.error();
-    return lod::make_chunk_file(scene_, *terrain, progress);
+    lod::ChunkBuilding building{lod::chunk_errors(*terrain), by.test};
+    if (by.margin_m) building.errors = {*by.margin_m};
+    return lod::make_chunk_file(scene_, *terrain, building, progress);
+}
+
+Result<void> LstrGenerator::generate() const {
+    if (lod::ChunkFile::is_there(scene_)) return {};
+    return generate(Simplification{});
 }
 
 }  // namespace relevo::ingest

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "geo/result.hpp"
 #include "ingest/import.hpp"
@@ -33,13 +34,23 @@ class LstrGenerator {
     /// The posts of the scene that the reference's filter finds: those that no more than so many percent of
     /// the range of heights set off from the posts around them. Needs 4 bytes a post for all heights.
     ///
-    /// It is for looking at, and for meshes of one's own: generate() asks the filter itself, node by node and
-    /// within the error of each, and keeps to that error whatever the filter finds.
+    /// It is for looking at, and for meshes of one's own: generate() asks the filter itself, node by node,
+    /// and keeps to its margin whatever the filter finds.
     Result<lod::PostSet> simplify(double percent, lod::RemovalTest test = lod::RemovalTest::pairs) const;
 
-    /// Makes the scene's chunks.bin; nothing where it is there. What an earlier call had done when it was
-    /// stopped is gone on with. Fails with ErrorKind::input where the file cannot be written, or was stopped.
-    Result<void> generate(const lod::ChunkProgress& progress = [](double) { return true; }) const;
+    /// How generate() simplifies.
+    struct Simplification {
+        std::optional<double> margin_m = {};  ///< of the finest level; none: what suits the screen
+        lod::RemovalTest test = lod::RemovalTest::pairs;
+    };
+
+    /// Makes the scene's chunks.bin, in place of another. What an earlier call had done when it was stopped
+    /// is gone on with. Fails with ErrorKind::input where the file cannot be written, or was stopped.
+    Result<void> generate(
+        const Simplification& by, const lod::ChunkProgress& progress = [](double) { return true; }) const;
+
+    /// The same, by what suits the screen; nothing where the file is there.
+    Result<void> generate() const;
 
     const lod::Scene& scene() const { return scene_; }
 

@@ -53,7 +53,7 @@ TEST_F(LstrLibrary, SimplifyFindsWhatALoopFinds) {
 
 TEST_F(LstrLibrary, GenerateMakesTheFileAndGoesOnWhereItWasStopped) {
     const auto generator = must(LstrGenerator::open(scene_));
-    EXPECT_FALSE(generator.generate([](double) { return false; }));
+    EXPECT_FALSE(generator.generate({}, [](double) { return false; }));
     EXPECT_FALSE(lod::ChunkFile::is_there(generator.scene()));
     must(generator.generate());
     EXPECT_TRUE(lod::ChunkFile::is_there(generator.scene()));
