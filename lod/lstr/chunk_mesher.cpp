@@ -47,9 +47,6 @@ Result<void> ChunkMesher::Workshop::prepare(const RefineOptions& refine) {
 
 namespace {
 
-/// Vertices of a mesh from which on other cores are woken: they cost about 30 us, as long as this many take.
-constexpr std::size_t kWorthSharing = 4096;
-
 glm::dvec3 up_at(const glm::dvec3& ecef) {
     constexpr double kAxes2 = 1 - 6.69437999014e-3;  // (polar radius / equatorial radius)^2
     return glm::normalize(ecef / glm::dvec3(1, 1, kAxes2));
@@ -95,7 +92,7 @@ void ChunkMesher::Workshop::assemble(const View& view, const std::vector<Selecte
     mesh.indices.resize(3 * first_triangle.back());
     const FixedFrame& frame = groups->frame();
     const glm::dvec3 to_origin = frame.origin - view.eye().m;
-    const auto assemble_node = [&](std::size_t i) {
+    tbb::parallel_for(std::size_t{0}, selected.size(), [&](std::size_t i) {
         const SelectedChunk& node = selected[i];
         const PlacedChunk& chunk = *node.chunk;
         MeshVertex* const vertices = mesh.vertices.data() + first_vertex[i];
@@ -136,12 +133,7 @@ void ChunkMesher::Workshop::assemble(const View& view, const std::vector<Selecte
         std::transform(&chunk.triangles->front()[0],
                        &chunk.triangles->front()[0] + 3 * chunk.triangles->size(), index,
                        [base](std::uint32_t v) { return base + v; });
-    };
-    if (first_vertex.back() < kWorthSharing) {
-        for (std::size_t i = 0; i < selected.size(); ++i) assemble_node(i);
-    } else {
-        tbb::parallel_for(std::size_t{0}, selected.size(), assemble_node);
-    }
+    });
     drawn = static_cast<int>(selected.size());
 }
 

@@ -39,9 +39,6 @@ constexpr unsigned kInsideAll = 0xf;  // a bit a side plane: all of a tile is in
 
 /// Tiles a core that a frame is cut into before the cores share them out.
 constexpr std::size_t kTilesACore = 12;
-/// Triangles of a mesh from which on other cores are woken. Waking them, and their waiting for more, costs a
-/// frame about as long as making this many.
-constexpr std::size_t kWorthSharing = 2048;
 
 }  // namespace
 
@@ -319,12 +316,11 @@ const Mesh& Refiner::refine(const View& view, const RefineOptions& options) {
     assert(options.tau_px > 0 && options.exaggeration >= 0);
     Workshop& shop = *workshop_;
     shop.prepare(view, options);
-    const bool share = options.parallel && shop.mesh.triangles() >= kWorthSharing;  // the last frame's
     // As much room as the buffers have; where that is not enough, once more with twice as much.
     for (std::size_t room = std::max(shop.placed.size(), std::size_t{1} << 16);; room *= 2) {
         shop.mesh.vertices.resize(room);
         shop.placed.resize(room);
-        shop.run(share);
+        shop.run(options.parallel);
         if (!shop.is_full) break;
     }
     shop.gather();
