@@ -18,14 +18,13 @@ ChunkSelector::ChunkSelector(const ChunkSet& chunks, const geo::GridFrame& frame
 const std::vector<ChunkWish>& ChunkSelector::wish(const View& view, const RefineOptions& refine,
                                                   const SelectionOptions& options) {
     ranges_.update(view, refine);
-    splits_.update(view, refine, std::max(options.swap_factor, 1.0), options.swap_radius_m);
+    splits_.update(view, refine, std::max(options.swap_factor, 1.0));
     wishes_.clear();
     wishes_.push_back({index_.root().parent(), true, 0});
     std::set<ChunkId> seen{index_.root().parent()};
     for (const ChunkSplits::Node& node : splits_.nodes()) {
         const double reach = splits_.reach(node.id);
-        if (options.swap_radius_m > 0 ? node.distance_m > options.swap_radius_m : reach > options.swap_factor)
-            continue;
+        if (node.distance_m > options.swap_radius_m || reach > options.swap_factor) continue;
         const bool now = reach < 1 && node.distance_m <= refine.view_distance_m &&
                          seen.contains(node.id.parent()) && (!refine.cull || node.box.is_in(view));
         if (now) seen.insert(node.id);

@@ -3,6 +3,7 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <set>
 #include <vector>
@@ -19,9 +20,8 @@ namespace relevo::lod {
 struct SelectionOptions {
     /// The swap sphere: nodes are in memory out to so many times the distance at which they are drawn...
     double swap_factor = 1.2;
-    /// ...or, if it is not 0, to this one, of all levels. Smaller than it need be, the ground is coarse
-    /// beyond.
-    double swap_radius_m = 0;
+    /// ...and no farther than this. Where that is less than they are drawn at, the ground is coarse beyond.
+    double swap_radius_m = std::numeric_limits<double>::infinity();
     double fade_s = 0.3;  ///< in which late nodes come in; 0: at once
     bool front_to_back = true;
 };

@@ -13,8 +13,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 ChunkSplits::ChunkSplits(const ChunkSet& chunks, const ChunkIndex& index, const ChunkRanges& ranges)
     : chunks_(chunks), index_(index), ranges_(ranges), reach_(index.size(), kNever) {}
 
-void ChunkSplits::update(const View& view, const RefineOptions& options, double reach_factor,
-                         double radius_m) {
+void ChunkSplits::update(const View& view, const RefineOptions& options, double reach_factor) {
     for (const Node& node : nodes_) reach_[node.place] = kNever;
     nodes_.clear();
     morph_ = options.morph;
@@ -25,7 +24,7 @@ void ChunkSplits::update(const View& view, const RefineOptions& options, double 
         Node node{id, place, known.box.exaggerated(options.exaggeration, known.most_H_m), 0};
         node.distance_m = node.box.distance_m(view.eye().m);
         const ChunkRange& range = ranges_[place];
-        if (node.distance_m > std::max(reach_factor * range.reach_m, radius_m)) return;
+        if (node.distance_m > reach_factor * range.reach_m) return;
         reach_[place] = range.split_m > 0 ? node.distance_m / range.split_m : kNever;
         nodes_.push_back(node);
     };

@@ -19,9 +19,9 @@ class ChunkSplits {
     /// All must outlive this.
     ChunkSplits(const ChunkSet& chunks, const ChunkIndex& index, const ChunkRanges& ranges);
 
-    /// \param reach_factor, radius_m  nodes are looked at out to so many times the distance from which they
-    /// could be split, and to this distance
-    void update(const View& view, const RefineOptions& options, double reach_factor, double radius_m);
+    /// \param reach_factor  nodes are looked at out to so many times the distance from which they could be
+    /// split
+    void update(const View& view, const RefineOptions& options, double reach_factor);
 
     struct Node {
         ChunkId id;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -210,7 +211,7 @@ TEST(ChunkMesher, DrawsTerrainsOfALeafAndLess) {
 TEST(ChunkMesher, LeavesNoCrackWhereReadsAreSlowAndRoomIsShort) {
     const Trial trial(513, 400);
     const geo::GridFrame& frame = trial.terrain.frame();
-    for (const double swap_radius_m : {0.0, 1500.0}) {
+    for (const double swap_radius_m : {std::numeric_limits<double>::infinity(), 1500.0}) {
         ChunkOptions options;
         options.store = {.memory_bytes = 600 << 10, .threads = 1, .read_delay_s = 0.002};
         options.selection.swap_radius_m = swap_radius_m;
