@@ -28,6 +28,12 @@ void stream(const GlBuffer& buffer, std::size_t& capacity, const void* data, std
     glNamedBufferSubData(buffer.name(), 0, static_cast<GLsizeiptr>(bytes), data);
 }
 
+/// What the ground's pages are asked for. The plain layer is lit at its vertices, which are pixels apart.
+Sight sight_of(const lod::View& view, const PicturePart& part, Layer layer) {
+    constexpr double kVertexPixels = 4;
+    return {view, part, layer == Layer::plain ? kVertexPixels : 1};
+}
+
 /// Has shaders/light.glsl dusk or night there?
 bool is_low(const SunSetting& sun, const geo::Geodetic& eye) {
     return std::sin(sun_at(sun, {eye.lat, eye.lon}).elevation.radians()) < 0.22;
@@ -165,7 +171,8 @@ void Renderer::upload(const lod::Mesh& mesh) {
 
 Result<void> Renderer::complete(const lod::View& view, const DrawSettings& settings,
                                 const PicturePart& part) {
-    if (auto done = ground_->complete(Sight(view, part), settings.exaggeration); !done) return done;
+    if (auto done = ground_->complete(sight_of(view, part, settings.layer), settings.exaggeration); !done)
+        return done;
     return gl_check("loading the terrain's normals");
 }
 
@@ -183,7 +190,7 @@ void Renderer::prepare(const lod::View& view, const DrawSettings& settings, cons
                                          settings.sun, settings.exaggeration, base_undulation_m_);
     glNamedBufferSubData(frame_.name(), 0, sizeof(block), &block);
     glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, frame_.name());
-    ground_->update(Sight(view, part), settings.exaggeration);
+    ground_->update(sight_of(view, part, settings.layer), settings.exaggeration);
     if (settings.layer == Layer::terrain) {
         if (!cover_) cover_.emplace(ground_map_.get());
         cover_->update(terrain_->frame(), {view.camera().eye.lat, view.camera().eye.lon});

@@ -10,8 +10,8 @@
 
 namespace relevo::viewer {
 
-Sight::Sight(const lod::View& view, const PicturePart& part)
-    : eye_(view.eye().m), forward_(view.forward()), focal_px_(view.focal_px()), least_cosine_(1) {
+Sight::Sight(const lod::View& view, const PicturePart& part, double pixels)
+    : eye_(view.eye().m), forward_(view.forward()), focal_px_(view.focal_px() / pixels), least_cosine_(1) {
     const double left = part.x;
     const double right = part.x + part.width;
     const double top = part.y;

@@ -22,7 +22,8 @@ struct PicturePart {
 /// What a part of a picture sees: where, and how finely.
 class Sight {
   public:
-    Sight(const lod::View& view, const PicturePart& part);
+    /// \param pixels  that a texel may be wide
+    Sight(const lod::View& view, const PicturePart& part, double pixels = 1);
 
     /// May any of a sphere be in the part?
     bool sees(const glm::dvec3& centre, double radius_m) const;
