@@ -75,7 +75,8 @@ class Desktop {
     }
 
     int xdotool(const std::string& what) const {
-        return std::system(fmt::format("DISPLAY=:{} xdotool {} >/dev/null 2>&1", number_, what).c_str());
+        return std::system(
+            fmt::format("DISPLAY=:{} timeout 30 xdotool {} >/dev/null 2>&1", number_, what).c_str());
     }
 
     /// Waits for the window, and then for the first frames in it: keys pressed before that could be lost.

@@ -32,11 +32,15 @@ class WindowTest : public testing::Test {
         ASSERT_TRUE(desktop_.start()) << "Xvfb does not start";
     }
 
-    /// Opens the window, and waits until it has shown its first frames.
-    void open(const std::string& flags) {
+    void start(const std::string& flags) {
         program_ = desktop_.run({RELEVO_PROGRAM, "view", scene_, "--size", "800x600", "--screenshot-dir",
                                  folder_.path().string()},
                                 flags, folder_ / "out", folder_ / "err");
+    }
+
+    /// Opens the window, and waits until it has shown its first frames.
+    void open(const std::string& flags) {
+        start(flags);
         ASSERT_TRUE(desktop_.wait_for_window()) << contents(folder_ / "err");
     }
 
@@ -171,7 +175,7 @@ TEST_F(WindowTest, ScreenshotsShowTheReadOutOverTheGround) {
 }
 
 TEST_F(WindowTest, FliesByItselfAndClosesAfterSomeFrames) {
-    open(std::string("--fly 300 --frames 12 --json ") + kMap);
+    start(std::string("--fly 300 --frames 12 --json ") + kMap);  // it may be gone before it is looked for
     ASSERT_EQ(desktop_.wait_for_exit(program_), 0) << contents(folder_ / "err");
     const auto json = nlohmann::json::parse(contents(folder_ / "out"));
     EXPECT_EQ(json["frames"], 12);
