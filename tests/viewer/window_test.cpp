@@ -231,7 +231,7 @@ TEST_F(WindowTest, AKeyStopsAReplay) {
 }
 
 TEST_F(WindowTest, TauGrowsToABudget) {
-    open(std::string("--max-triangles 500 --tau 0.25 --frames 60 --json ") + kMap);
+    start(std::string("--max-triangles 500 --tau 0.25 --frames 60 --json ") + kMap);
     ASSERT_EQ(desktop_.wait_for_exit(program_), 0) << contents(folder_ / "err");
     const auto json = nlohmann::json::parse(contents(folder_ / "out"));
     EXPECT_GT(json["tau_reached_px"], 0.25);
