@@ -4,6 +4,8 @@
 #include <memory>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "lod/lstr/chunk_file.hpp"
 #include "lod/lstr/chunk_file_writer.hpp"
 
@@ -11,6 +13,13 @@ namespace relevo::lod {
 
 Result<void> make_chunk_file(const Scene& scene, const Terrain& terrain, const ChunkBuilding& building,
                              const ChunkProgress& progress) {
+    // What a vertex moves by is kept in parts of it, as whole numbers.
+    constexpr double kLeastMargin = 1e-6;
+    constexpr double kMostMargin = 1e5;
+    const double margin_m = building.errors.first_m;
+    if (!(margin_m >= kLeastMargin && margin_m <= kMostMargin))
+        return Error{ErrorKind::usage, fmt::format("a margin of {:.3g} m: expected {:g} to {:g} metres",
+                                                   margin_m, kLeastMargin, kMostMargin)};
     const auto own = chunk_identity(scene);
     if (!own) return own.error();
     ChunkFileHead head;

@@ -14,7 +14,7 @@ using ChunkProgress = std::function<bool(double)>;
 
 /// Makes a scene's chunks.bin, in place of another. What an earlier call had done when it was stopped is not
 /// done again, and the file is the same to the byte. Fails with ErrorKind::input where it cannot be written,
-/// or was stopped.
+/// or was stopped, and with ErrorKind::usage where the margin is not 1e-6 to 1e5 metres.
 Result<void> make_chunk_file(const Scene& scene, const Terrain& terrain, const ChunkBuilding& building,
                              const ChunkProgress& progress);
 

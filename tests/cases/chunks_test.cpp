@@ -16,6 +16,7 @@
 #include "lod/oracle.hpp"
 #include "lod/sample_views.hpp"
 #include "lod/scene/scene.hpp"
+#include "tests/cases/real_dem.hpp"
 #include "tests/ingest/importing.hpp"
 #include "tests/lod/brute_chunk_error.hpp"
 #include "tests/lod/scratch_scene.hpp"
@@ -24,15 +25,7 @@
 namespace relevo::lod {
 namespace {
 
-struct RealDem {
-    const char* name;
-    const char* file;
-    const char* crs;  // where the file does not say
-};
-
-void PrintTo(const RealDem& dem, std::ostream* out) {
-    *out << dem.file;
-}
+using test::RealDem;
 
 const RealDem kDems[] = {
     {"baltoro", "mountains/baltoro.tif", ""},                  // not square, extreme relief

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "lod/scene_check.hpp"
+#include "tests/cases/real_dem.hpp"
 #include "tests/ingest/importing.hpp"
 #include "tests/lod/same_pyramid.hpp"
 #include "tests/lod/scratch_scene.hpp"
@@ -12,15 +13,7 @@
 namespace relevo::lod {
 namespace {
 
-struct RealDem {
-    const char* name;
-    const char* file;
-    const char* crs;  // where the file does not say
-};
-
-void PrintTo(const RealDem& dem, std::ostream* out) {
-    *out << dem.file;
-}
+using test::RealDem;
 
 const RealDem kDems[] = {
     {"everest", "mountains/mt_everest_90m.tif", ""},           // voids, extreme relief

@@ -81,7 +81,7 @@ TEST_F(LstrCommand, AMarginIsOfMetresOfTheRangeOrOfTheScreen) {
     ASSERT_EQ(run.status, 0) << run.err;
     EXPECT_LE(nlohmann::json::parse(run.out)["max_error_px"].get<double>(), 1);
     EXPECT_EQ(fs::last_write_time(chunks_), made);
-    for (const char* wrong : {"2", "m", "-1m", "0m", "nan%", "2m3", "2 m"})
+    for (const char* wrong : {"1e300m", "1e-300m", "2", "m", "-1m", "0m", "nan%", "2m3", "2 m"})
         EXPECT_EQ(relevo("chunks make " + scene_ + " --margin '" + wrong + "'").status, 2) << wrong;
     EXPECT_EQ(relevo("chunks make " + scene_ + " --filter half").status, 2);
 }
