@@ -93,6 +93,10 @@ Degrees GridFrame::up_azimuth(Degrees lon) const {
     return Degrees{0};
 }
 
+bool GridFrame::contains(GridPosition place) const {
+    return place.column >= 0 && place.row >= 0 && place.column <= columns - 1 && place.row <= rows - 1;
+}
+
 bool GridFrame::closes() const {
     return !is_polar() && columns > 1 && std::abs((columns - 1) * step_x - 360) <= 0.5 * step_x;
 }

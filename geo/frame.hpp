@@ -50,6 +50,9 @@ struct GridFrame {
     /// closes is at the nearer of the two: they are the same place, to half a step.
     GridPosition grid_position(LatLon place) const;
 
+    /// Is a place within the outermost posts of the data, or on them? Never of NaN.
+    bool contains(GridPosition place) const;
+
     /// ECEF position of a place in the grid at height h, by GeographicLib: the exact path. The fast one is
     /// PostPositions (post_positions.hpp), which agrees to 4 nm, in polar grids to 8 nm.
     Ecef ecef(GridPosition place, EllipsoidalHeight h) const;

@@ -17,9 +17,7 @@ std::optional<geo::EllipsoidalHeight> ground_height(const lod::Terrain& terrain,
     const int last_column = terrain.frame().columns - 1;
     const int last_row = terrain.frame().rows - 1;
     const geo::GridPosition at = terrain.frame().grid_position(place);
-    if (!(at.column >= 0 && at.row >= 0 && at.column <= last_column && at.row <= last_row)) {
-        return std::nullopt;
-    }
+    if (!terrain.frame().contains(at)) return std::nullopt;
     const int west = static_cast<int>(at.column);
     const int north = static_cast<int>(at.row);
     const int east = std::min(west + 1, last_column);

@@ -7,7 +7,6 @@
 #include <glm/matrix.hpp>
 
 #include "geo/ellipsoid.hpp"
-#include "viewer/eye_height.hpp"
 
 namespace relevo::viewer {
 
@@ -55,11 +54,6 @@ glm::dvec4 place_of(const lod::Terrain& terrain) {
             geo::Degrees{grid.step_x}.radians(), geo::Degrees{grid.step_y}.radians()};
 }
 
-bool may_be_below(const geo::Geodetic& eye, const lod::Terrain& terrain, double exaggeration) {
-    const auto ground = ground_height(terrain, {eye.lat, eye.lon}, exaggeration);
-    return ground ? eye.h < *ground : eye.h.m < 10e3 * exaggeration;
-}
-
 glm::vec4 vec4(const glm::dvec3& v, double w = 0) {
     return {glm::vec3(v), static_cast<float>(w)};
 }
@@ -67,7 +61,7 @@ glm::vec4 vec4(const glm::dvec3& v, double w = 0) {
 }  // namespace
 
 FrameBlock frame_block(const lod::View& view, const lod::Terrain& terrain, const Window& window,
-                       const SunSetting& sun, double exaggeration, double base_m) {
+                       const SunSetting& sun, double exaggeration, double base_m, bool may_be_below) {
     const lod::Camera& camera = view.camera();
     const geo::EnuFrame local(camera.eye);
     const geo::GridFrame& grid = terrain.frame();
@@ -89,8 +83,7 @@ FrameBlock frame_block(const lod::View& view, const lod::Terrain& terrain, const
     block.sun =
         vec4(fixed ? to_sun_ecef : lamp_in_grid(here, grid), daylight * daylight * (3 - 2 * daylight));
     block.sun_at_eye = vec4(to_sun_ecef, to_sun.z);
-    block.surface = glm::dvec4(exaggeration, terrain.levels(), 1 / kVisibilityM,
-                               may_be_below(camera.eye, terrain, exaggeration) ? 1 : 0);
+    block.surface = glm::dvec4(exaggeration, terrain.levels(), 1 / kVisibilityM, may_be_below ? 1 : 0);
 
     // The ray through the window's middle and its change to the window's right and upper edge.
     const double tan_x = 0.5 * camera.width / view.focal_px();

@@ -35,7 +35,8 @@ struct Window {
 };
 
 /// \param base_m  height of the base surface, where there is no data, above the ellipsoid
+/// \param may_be_below  is the eye below the ground, as far as is known?
 FrameBlock frame_block(const lod::View& view, const lod::Terrain& terrain, const Window& window,
-                       const SunSetting& sun, double exaggeration, double base_m);
+                       const SunSetting& sun, double exaggeration, double base_m, bool may_be_below);
 
 }  // namespace relevo::viewer

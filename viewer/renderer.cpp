@@ -185,9 +185,25 @@ Renderer::Variant Renderer::variant(const DrawSettings& settings) const {
             .probe = false};
 }
 
+std::optional<bool> Renderer::is_below_ground(const geo::Geodetic& eye, double exaggeration) const {
+    const geo::LatLon place{eye.lat, eye.lon};
+    const geo::GridPosition at = terrain_->frame().grid_position(place);
+    if (!terrain_->frame().contains(at)) return std::nullopt;
+    // Higher than all posts none need be read: an eye that flies fast is over other ones at every frame.
+    const double N = terrain_->undulations().at(at);
+    if (eye.h.m > N + exaggeration * ground_->facts().highest_m) return false;
+    const auto ground = ground_height(*terrain_, place, exaggeration);
+    if (!ground) return std::nullopt;
+    return eye.h < *ground;
+}
+
 void Renderer::prepare(const lod::View& view, const DrawSettings& settings, const PicturePart& part) {
-    const FrameBlock block = frame_block(view, *terrain_, {part.x, part.y, part.width, part.height},
-                                         settings.sun, settings.exaggeration, base_undulation_m_);
+    const geo::Geodetic& eye = view.camera().eye;
+    const bool may_be_below =
+        is_below_ground(eye, settings.exaggeration).value_or(eye.h.m < 10e3 * settings.exaggeration);
+    const FrameBlock block =
+        frame_block(view, *terrain_, {part.x, part.y, part.width, part.height}, settings.sun,
+                    settings.exaggeration, base_undulation_m_, may_be_below);
     glNamedBufferSubData(frame_.name(), 0, sizeof(block), &block);
     glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, frame_.name());
     ground_->update(sight_of(view, part, settings.layer), settings.exaggeration);
@@ -216,9 +232,7 @@ void Renderer::draw_terrain(GlName program, Layer layer) {
 
 Result<int> Renderer::fill(const lod::View& view, const DrawSettings& settings) {
     // Below the ground, where one looks past it from behind, there is nothing to fill.
-    const geo::Geodetic& eye = view.camera().eye;
-    const auto ground = ground_height(*terrain_, {eye.lat, eye.lon}, settings.exaggeration);
-    if (ground && eye.h < *ground) return 0;
+    if (is_below_ground(view.camera().eye, settings.exaggeration).value_or(false)) return 0;
     return ocean_->fill();
 }
 

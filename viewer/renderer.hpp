@@ -90,6 +90,8 @@ class Renderer {
     Result<GlName> terrain_program(const Variant& variant);
     Result<GlName> sky_program(bool low_sun);
     Result<void> make_ramps();
+    /// Nothing where no ground is under or over the eye.
+    std::optional<bool> is_below_ground(const geo::Geodetic& eye, double exaggeration) const;
     /// The ocean's, where the eye is above the ground.
     Result<int> fill(const lod::View& view, const DrawSettings& settings);
     void make_vertex_array();

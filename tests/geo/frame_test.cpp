@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include <glm/geometric.hpp>
@@ -54,6 +55,16 @@ TEST(GridFrame, WholeEarthHasBothItsEdges) {
     const GridFrame f = frame(-180, 90, 0.5, 721, 361);
     EXPECT_EQ(f.grid_position({Degrees{0}, Degrees{-180}}).column, 0);
     EXPECT_EQ(f.grid_position({Degrees{0}, Degrees{180}}).column, 720);
+}
+
+TEST(GridFrame, ContainsItsOutermostPostsAndNothingBeyondThem) {
+    const GridFrame f = frame(0, 10, 0.5, 5, 3);
+    EXPECT_TRUE(f.contains({0, 0}));
+    EXPECT_TRUE(f.contains({4, 2}));
+    EXPECT_FALSE(f.contains({4.001, 1}));
+    EXPECT_FALSE(f.contains({1, 2.001}));
+    EXPECT_FALSE(f.contains({-1e-9, 1}));
+    EXPECT_FALSE(f.contains({1, std::numeric_limits<double>::quiet_NaN()}));
 }
 
 TEST(GridFrame, ClosesWhereItsLastColumnIsItsFirstToHalfAStep) {

@@ -276,7 +276,7 @@ bool HoleFinder::expects(const lod::View& view, const glm::dvec2& pixel) {
     const geo::GridPosition at = grid.grid_position(*place);
     const int last_column = grid.columns - 1;
     const int last_row = grid.rows - 1;
-    if (!(at.column >= 0 && at.row >= 0 && at.column <= last_column && at.row <= last_row)) {
+    if (!grid.contains(at)) {
         const double column = std::clamp(at.column, 0.0, static_cast<double>(last_column));
         const double row = std::clamp(at.row, 0.0, static_cast<double>(last_row));
         return is_sea(static_cast<int>(std::lround(column)), static_cast<int>(std::lround(row)));

@@ -70,9 +70,7 @@ peers::PixelErrors drawn_errors(const lod::Terrain& terrain, const lod::View& vi
                 lod::View::kNearM / static_cast<double>(*depth) / glm::dot(ray, view.forward());
             const geo::Geodetic drawn = geo::to_geodetic({view.eye().m + away * ray});
             const geo::GridPosition at = frame.grid_position({drawn.lat, drawn.lon});
-            if (!(at.column >= 0 && at.row >= 0 && at.column <= frame.columns - 1 &&
-                  at.row <= frame.rows - 1))
-                continue;
+            if (!frame.contains(at)) continue;
             const double N = terrain.undulations().at(at);
             double best = std::numeric_limits<double>::infinity();
             for (const double H : peers::surfaces_at(H_at, frame.columns, frame.rows, at.column, at.row))
