@@ -26,6 +26,16 @@ constexpr int kNoUnit = kFinestUnit - 1;
 constexpr std::int64_t kList = 0;
 constexpr std::int64_t kStrips = 1;
 
+std::int64_t rise_steps(const ChunkVertex& v, double allowed_m) {
+    const double rise_m = static_cast<double>(v.coarse_H) - static_cast<double>(v.H);
+    return std::llround(rise_m / allowed_m * kRiseSteps);
+}
+
+float risen(float H, std::int64_t steps, double allowed_m) {
+    const double rise_m = static_cast<double>(steps) * allowed_m / kRiseSteps;
+    return static_cast<float>(static_cast<double>(H) + rise_m);
+}
+
 std::int64_t bits_of(float H) {
     return std::bit_cast<std::int32_t>(H);
 }
@@ -101,6 +111,15 @@ bool read_triangles(NumberReader& numbers, ChunkMesh& mesh) {
 
 }  // namespace
 
+double rise_rounding_m(const ChunkMesh& mesh, double allowed_m) {
+    double most = 0;
+    for (const ChunkVertex& v : mesh.vertices) {
+        const float kept = risen(v.H, rise_steps(v, allowed_m), allowed_m);
+        most = std::max(most, std::abs(static_cast<double>(kept) - static_cast<double>(v.coarse_H)));
+    }
+    return most;
+}
+
 std::vector<std::byte> encode_chunk(const ChunkMesh& mesh, double allowed_m) {
     NumberWriter numbers;
     numbers.add(static_cast<std::int64_t>(mesh.vertices.size()));
@@ -114,10 +133,7 @@ std::vector<std::byte> encode_chunk(const ChunkMesh& mesh, double allowed_m) {
         numbers.add(H - last_H);
         last_H = H;
     }
-    for (const ChunkVertex& v : mesh.vertices) {
-        const double rise_m = static_cast<double>(v.coarse_H) - static_cast<double>(v.H);
-        numbers.add(std::llround(rise_m / allowed_m * kRiseSteps));
-    }
+    for (const ChunkVertex& v : mesh.vertices) numbers.add(rise_steps(v, allowed_m));
     write_triangles(mesh.triangles, numbers);
     for (const auto& side : mesh.sides) {
         numbers.add(static_cast<std::int64_t>(side.size()));
@@ -167,8 +183,7 @@ Result<ChunkMesh> decode_chunk(std::span<const std::byte> bytes, const ChunkId& 
         if (!std::isfinite(v.H)) return damaged;
     }
     for (ChunkVertex& v : mesh.vertices) {
-        const double rise_m = static_cast<double>(numbers.next()) * allowed_m / kRiseSteps;
-        v.coarse_H = static_cast<float>(static_cast<double>(v.H) + rise_m);
+        v.coarse_H = risen(v.H, numbers.next(), allowed_m);
         if (!std::isfinite(v.coarse_H)) return damaged;
     }
     if (!read_triangles(numbers, mesh)) return damaged;

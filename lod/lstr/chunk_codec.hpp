@@ -15,6 +15,9 @@ namespace relevo::lod {
 /// a level.
 std::vector<std::byte> encode_chunk(const ChunkMesh& mesh, double allowed_m);
 
+/// How far encoding puts a vertex that has moved to the coarser level off, metres, at most: half a step.
+double rise_rounding_m(const ChunkMesh& mesh, double allowed_m);
+
 /// The mesh in such bytes. Fails with ErrorKind::damaged. \param name  for the message
 Result<ChunkMesh> decode_chunk(std::span<const std::byte> bytes, const ChunkId& id, double allowed_m,
                                const std::string& name);

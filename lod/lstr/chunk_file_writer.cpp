@@ -140,7 +140,8 @@ Result<ChunkFileWriter> ChunkFileWriter::on_copy(const std::filesystem::path& pl
 ChunkFileWriter::PackedNode ChunkFileWriter::packed(const Terrain& terrain, const ChunkMesh& mesh,
                                                     std::uint32_t flags) const {
     PackedNode packed{index_->place(mesh.id), {}, {}};
-    packed.bytes = encode_chunk(mesh, ChunkErrors{head_.first_error_m}.of_level(mesh.id.level));
+    const double allowed_m = ChunkErrors{head_.first_error_m}.of_level(mesh.id.level);
+    packed.bytes = encode_chunk(mesh, allowed_m);
     const ChunkNode node = chunk_node(terrain, mesh);
     ChunkRow& row = packed.row;
     row.bytes = packed.bytes.size();
@@ -148,7 +149,7 @@ ChunkFileWriter::PackedNode ChunkFileWriter::packed(const Terrain& terrain, cons
     row.flags = ChunkRow::kThere | flags;
     row.vertices = node.vertices;
     row.error_m = node.error_m;
-    row.moved_error_m = node.moved_error_m;
+    row.moved_error_m = node.moved_error_m + rise_rounding_m(mesh, allowed_m);
     row.most_H_m = node.most_H_m;
     for (int axis = 0; axis < 3; ++axis) {
         row.middle[static_cast<std::size_t>(axis)] = node.box.middle[axis];

@@ -55,6 +55,22 @@ TEST_F(ChunkCodec, GivesBackWhatItTook) {
     EXPECT_EQ(encode_chunk(mesh_, kFirst), bytes);
 }
 
+TEST_F(ChunkCodec, SaysHowFarItPutsMovedVerticesOff) {
+    for (const double allowed_m : {0.1, kFirst, 1000.0}) {
+        const auto back = decode_chunk(encode_chunk(mesh_, allowed_m), mesh_.id, allowed_m, "trial");
+        ASSERT_TRUE(back);
+        double most = 0;
+        for (std::size_t i = 0; i < mesh_.vertices.size(); ++i) {
+            const auto moved = [i](const ChunkMesh& mesh) { return double{mesh.vertices[i].coarse_H}; };
+            most = std::max(most, std::abs(moved(*back) - moved(mesh_)));
+        }
+        EXPECT_EQ(rise_rounding_m(mesh_, allowed_m), most);
+        EXPECT_GT(most, 0);
+        EXPECT_LE(most, allowed_m / 1000);
+        EXPECT_EQ(rise_rounding_m(*back, allowed_m), 0);
+    }
+}
+
 TEST_F(ChunkCodec, HeightsComeBackToTheBit) {
     const auto of_heights = [&](auto height) {
         ChunkMesh mesh = mesh_;

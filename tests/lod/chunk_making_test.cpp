@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "lod/lstr/chunk_file.hpp"
+#include "tests/lod/brute_chunk_error.hpp"
 #include "tests/lod/scratch_scene.hpp"
 #include "tests/lod/synthetic_terrain.hpp"
 
@@ -101,6 +102,25 @@ TEST_F(ChunkMaking, OfAnotherMarginOrFilterBeginsAnew) {
     const auto made = ChunkFile::open(*scene_, *terrain_);
     ASSERT_TRUE(made);
     EXPECT_EQ(made->errors().first_m, building_.errors.first_m);
+}
+
+TEST_F(ChunkMaking, OfAWideMarginSaysWhatVerticesMovedInStepsOfItAreOff) {
+    building_.errors.first_m = 1000;
+    make(kNever);
+    const auto made = ChunkFile::open(*scene_, *terrain_);
+    ASSERT_TRUE(made);
+    int nodes = 0;
+    for (int row = 0; row < 4; ++row) {
+        for (int column = 0; column < 5; ++column) {
+            const auto mesh = made->mesh({1, column, row});
+            if (!mesh || !*mesh) continue;
+            ChunkMesh moved = **mesh;
+            for (ChunkVertex& v : moved.vertices) v.H = v.coarse_H;
+            EXPECT_LE(test::brute_error_m(*terrain_, moved), (*mesh)->moved_error_m) << column << ' ' << row;
+            ++nodes;
+        }
+    }
+    EXPECT_GT(nodes, 10);
 }
 
 }  // namespace
