@@ -9,6 +9,7 @@
 
 #include "app/command.hpp"
 #include "app/ground_map_flag.hpp"
+#include "app/quick_import.hpp"
 #include "app/view_flags.hpp"
 #include "viewer/flight.hpp"
 
@@ -67,81 +68,141 @@ Result<void> check(const WindowFlags& flags) {
 /// Ctrl-C while recording closes the window, so that what was flown is kept.
 volatile std::sig_atomic_t interrupted = 0;
 
-Result<void> run(const WindowFlags& flags) {
-    viewer::ViewState moving;
-    moving.morph = true;  // a picture that moves should not jump
-    auto view = read_view(flags.view, moving);
+/// What the flags say of the view and of the flight, for whichever scene.
+struct Request {
+    viewer::ViewState view;
+    viewer::FlightOptions flight;
+    PictureSize size;
+};
+
+Result<Request> read_request(const WindowFlags& flags) {
+    Request request;
+    request.view.morph = true;  // a picture that moves should not jump
+    auto view = read_view(flags.view, request.view);
     if (!view) return view.error();
+    request.view = *std::move(view);
     const auto size = read_size(flags.view, {});
     if (!size) return size.error();
-    int samples = 0;
+    request.size = *size;
     if (flags.view.samples) {
-        const auto asked = read_samples(flags.view, 0);
-        if (!asked) return asked.error();
-        samples = *asked;
+        const auto samples = read_samples(flags.view, 0);
+        if (!samples) return samples.error();
+        request.flight.samples = *samples;
     }
-    if (auto fine = check(flags); !fine) return fine;
+    if (auto fine = check(flags); !fine) return fine.error();
     const auto budget = read_budget(flags.budget);
     if (!budget) return budget.error();
-    std::optional<viewer::FlightPath> play;
+    request.flight.budget = *budget;
     if (flags.play) {
-        auto read = viewer::FlightPath::load(*flags.play);
-        if (!read) return read.error();
-        play = std::move(*read);
-        put(*view, play->keys().front());
+        auto play = viewer::FlightPath::load(*flags.play);
+        if (!play) return play.error();
+        put(request.view, play->keys().front());
+        request.flight.play = *std::move(play);
     }
+    request.flight.forward_m_s = flags.fly_m_s;
+    request.flight.frames = flags.frames;
+    request.flight.record = flags.record.value_or("");
+    request.flight.output_folder = flags.screenshot_dir;
+    return request;
+}
 
-    const lod::CacheSizes sizes = lod::cache_sizes(lod::find_machine(flags.scene), flags.view.memory);
+/// One scene, until the window is closed or another one is to be opened.
+Result<viewer::FlightFigures> fly_over(viewer::Desk& desk, const lod::Scene& scene, const WindowFlags& flags,
+                                       Request request) {
+    const lod::CacheSizes sizes = lod::cache_sizes(lod::find_machine(scene.path()), flags.view.memory);
     const auto tiles = tile_options(sizes, 0.5);
     if (!tiles) return tiles.error();
-
-    const auto scene = lod::Scene::open(flags.scene);
-    if (!scene) return scene.error();
-    auto terrain = lod::Terrain::open(*scene, view->metric, *tiles);
+    auto terrain = lod::Terrain::open(scene, request.view.metric, *tiles);
     if (!terrain) return terrain.error();
-    if (view->method == viewer::Method::lstr) {
-        if (auto done = provide_chunks(*scene, *terrain, flags.common); !done) return done;
+    if (request.view.method == viewer::Method::lstr) {
+        if (auto done = provide_chunks(scene, *terrain, flags.common); !done) return done.error();
     }
-    const viewer::EyeHeight heights(scene->geoid());
-    if (!play) place_view(*view, flags.view, *scene, *terrain, heights, *size);
+    const viewer::EyeHeight heights(scene.geoid());
+    if (!request.flight.play) place_view(request.view, flags.view, scene, *terrain, heights, request.size);
 
     const auto map = read_ground_map(flags.view.ground_map, terrain->frame());
     if (!map) return map.error();
     const viewer::GroundData ground{
         .pyramid = terrain->pyramid().get(),
-        .facts = viewer::ground_facts(scene->info()),
+        .facts = viewer::ground_facts(scene.info()),
         .cache_bytes = sizes.texel_bytes,
         .heights = &heights,
         .map = *map,
         .report = [](const std::string& line) { fmt::print(stderr, "relevo view: {}\n", line); }};
+    request.flight.chunks = {.store = {.memory_bytes = tiles->memory_bytes,
+                                       .threads = tiles->threads,
+                                       .read_delay_s = tiles->read_delay_s},
+                             .selection = {.swap_factor = sizes.swap_factor}};
+    return viewer::fly(desk, scene, *terrain, ground, heights, request.view, request.flight);
+}
 
-    viewer::FlightOptions options{.width = size->width,
-                                  .height = size->height,
-                                  .samples = samples,
-                                  .forward_m_s = flags.fly_m_s,
-                                  .frames = flags.frames,
-                                  .play = std::move(play),
-                                  .record = flags.record.value_or(""),
-                                  .chunks = {.store = {.memory_bytes = tiles->memory_bytes,
-                                                       .threads = tiles->threads,
-                                                       .read_delay_s = tiles->read_delay_s},
-                                             .selection = {.swap_factor = sizes.swap_factor}},
-                                  .budget = *budget,
-                                  .ui_scale = flags.ui_scale,
-                                  .screenshot_folder = flags.screenshot_dir};
+/// The scene of the command line is open before the window is: what is wrong with it ends the program.
+Result<std::optional<lod::Scene>> first_scene(const WindowFlags& flags) {
+    if (flags.scene.empty()) return std::optional<lod::Scene>();
+    const auto place = viewer::scene_at(flags.scene);
+    std::error_code failed;
+    if (!place && std::filesystem::is_regular_file(flags.scene, failed)) {
+        if (auto fine = check_importable(flags.scene); !fine) return fine.error();
+        return std::optional<lod::Scene>();
+    }
+    auto scene = lod::Scene::open(place.value_or(flags.scene));
+    if (!scene) return scene.error();
+    return std::optional(*std::move(scene));
+}
+
+Result<void> run(const WindowFlags& flags) {
+    auto request = read_request(flags);
+    if (!request) return request.error();
+    auto scene = first_scene(flags);
+    if (!scene) return scene.error();
+    auto desk = viewer::Desk::create({.width = request->size.width,
+                                      .height = request->size.height,
+                                      .ui_scale = flags.ui_scale,
+                                      .settings = viewer::settings_file(),
+                                      .make_scene = quick_import});
+    if (!desk) return desk.error();
+    if (!flags.scene.empty() && !*scene) desk->open(flags.scene);
+
     // With --json, stdout is one object; what happens on the way goes to stderr.
     std::FILE* events = flags.common.json ? stderr : stdout;
-    options.say = [events](const std::string& line) {
+    request->flight.say = [events](const std::string& line) {
         fmt::print(events, "{}\n", line);
         std::fflush(events);
     };
     if (flags.record) {
         std::signal(SIGINT, [](int) { interrupted = 1; });
-        options.must_close = [] { return interrupted != 0; };
+        request->flight.must_close = [] { return interrupted != 0; };
     }
-    const auto figures = viewer::fly(*scene, *terrain, ground, heights, *view, options);
-    if (!figures) return figures.error();
-    if (flags.common.json) fmt::print("{}\n", to_json(*figures).dump(2));
+    std::optional<viewer::FlightFigures> figures;
+    while (!desk->window().should_close()) {
+        if (!*scene) {
+            auto place = desk->take_next();
+            if (!place) {
+                const auto chosen = viewer::choose_scene(*desk);
+                if (!chosen) return chosen.error();
+                place = *chosen;
+            }
+            if (!place) break;  // closed
+            auto opened = lod::Scene::open(*place);
+            if (!opened) {
+                desk->tell(opened.error().message);
+                continue;
+            }
+            scene->emplace(*std::move(opened));
+        }
+        std::error_code failed;
+        desk->settings().remember(
+            std::filesystem::absolute((*scene)->path(), failed).lexically_normal().string());
+        const auto flown = fly_over(*desk, **scene, flags, *request);
+        if (!flown) return flown.error();
+        figures = *flown;
+        scene->reset();
+        request->flight.record.clear();
+        request->flight.play.reset();
+    }
+    desk->save();
+    if (flags.common.json)
+        fmt::print("{}\n", figures ? to_json(*figures).dump(2) : nlohmann::json::object().dump());
     return {};
 }
 
@@ -153,7 +214,9 @@ void add_view(CLI::App& program, Action& action) {
     command->footer(
         "Example:\n  relevo view colorado.relevo --eye 37.45,-105.75,3200 --heading 55 --fly 200\nF1 lists "
         "the keys.");
-    command->add_option("SCENE", flags->scene, "A scene made by relevo ingest")->required();
+    command->add_option("SCENE", flags->scene,
+                        "A scene, or an elevation file, which is imported first; without it one is chosen "
+                        "in the window");
     add_view_flags(*command, flags->view);
     command->add_option("--fly", flags->fly_m_s, "Fly ahead by itself, until a key is pressed")
         ->type_name("M_PER_S");
@@ -165,7 +228,9 @@ void add_view(CLI::App& program, Action& action) {
     command->add_option("--frames", flags->frames, "Close after so many frames")->type_name("N");
     command->add_option("--ui-scale", flags->ui_scale, "Size of letters and marks [the screen's]")
         ->type_name("X");
-    command->add_option("--screenshot-dir", flags->screenshot_dir, "Where P and F12 write [.]")
+    command
+        ->add_option("--screenshot-dir", flags->screenshot_dir,
+                     "Where pictures, flights and measurements are written [.]")
         ->type_name("DIR");
     add_common(*command, flags->common);
     command->callback([flags, &action] { action = [flags] { return run(*flags); }; });

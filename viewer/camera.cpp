@@ -24,13 +24,15 @@ void set_eye(ViewState& view, const EyeHeight& heights, const geo::Geodetic& eye
 
 namespace {
 
-/// The view from `distance` metres south of and above `target`, towards it.
-void look_from_south(ViewState& view, const EyeHeight& heights, const geo::Geodetic& target,
-                     double distance) {
-    const double angle = geo::Degrees{30}.radians();
+/// The view from a distance towards `target`. \param azimuth  from the eye, at the target
+/// \param down  from level
+void look_along(ViewState& view, const EyeHeight& heights, const geo::Geodetic& target, double distance,
+                geo::Degrees azimuth, geo::Degrees down) {
     const geo::EnuFrame there(target);
-    const geo::Geodetic eye =
-        geo::to_geodetic(there.to_ecef({{0, -distance * std::cos(angle), distance * std::sin(angle)}}));
+    const double flat = distance * std::cos(down.radians());
+    const geo::Geodetic eye = geo::to_geodetic(
+        there.to_ecef({{-flat * std::sin(azimuth.radians()), -flat * std::cos(azimuth.radians()),
+                        distance * std::sin(down.radians())}}));
     const glm::dvec3 to_target = glm::normalize(geo::EnuFrame(eye).from_ecef(there.origin()).m);
     set_eye(view, heights, eye);
     view.heading = geo::wrapped_360(geo::Degrees::from_radians(std::atan2(to_target.x, to_target.y)));
@@ -38,6 +40,15 @@ void look_from_south(ViewState& view, const EyeHeight& heights, const geo::Geode
 }
 
 }  // namespace
+
+void look_at(ViewState& view, const EyeHeight& heights, const geo::Geodetic& target, double distance_m) {
+    constexpr double kFlattest = 15;
+    // Straight down there is no azimuth to be seen in the ray: the heading stays what it is.
+    const geo::Degrees heading = view.heading;
+    const geo::Degrees down{std::clamp(-view.pitch.value, kFlattest, 90.0)};
+    look_along(view, heights, target, distance_m, heading, down);
+    if (down.value > 89.9) view.heading = heading;
+}
 
 void look_over(ViewState& view, const lod::Terrain& terrain, const lod::SceneInfo& info,
                const EyeHeight& heights, int width, int height) {
@@ -52,7 +63,7 @@ void look_over(ViewState& view, const lod::Terrain& terrain, const lod::SceneInf
     const geo::Geodetic target = at(0.5, 0.5, 0.5 * (low + high));
 
     const auto shows_all = [&](double distance) {
-        look_from_south(view, heights, target, distance);
+        look_along(view, heights, target, distance, geo::Degrees{0}, geo::Degrees{30});
         const lod::View seen(camera_of(view, heights, width, height));
         for (const double across : {0.0, 0.5, 1.0}) {
             for (const double down : {0.0, 0.5, 1.0}) {
@@ -71,7 +82,7 @@ void look_over(ViewState& view, const lod::Terrain& terrain, const lod::SceneInf
         const double middle = 0.5 * (near + far);
         (shows_all(middle) ? far : near) = middle;
     }
-    look_from_south(view, heights, target, far);
+    look_along(view, heights, target, far, geo::Degrees{0}, geo::Degrees{30});
     view.roll = geo::Degrees{0};
     // Nobody needs 17 digits of a view that we chose: a short string is easier to pass on.
     const auto rounded = [](double value, double parts) { return std::round(value * parts) / parts; };

@@ -8,18 +8,19 @@
 #include "geo/coordinate_text.hpp"
 #include "lod/soar/pick.hpp"
 #include "viewer/camera.hpp"
-#include "viewer/flight_controls.hpp"
+#include "viewer/error_probe.hpp"
 #include "viewer/flight_keys.hpp"
 #include "viewer/flight_recorder.hpp"
 #include "viewer/frame_times.hpp"
 #include "viewer/gl_check.hpp"
 #include "viewer/gl_memory.hpp"
-#include "viewer/hud.hpp"
 #include "viewer/mesher.hpp"
+#include "viewer/motion.hpp"
+#include "viewer/offscreen.hpp"
 #include "viewer/renderer.hpp"
 #include "viewer/ruler.hpp"
-#include "viewer/ui.hpp"
-#include "viewer/window.hpp"
+#include "viewer/scene_facts.hpp"
+#include "viewer/ui/panels.hpp"
 
 namespace relevo::viewer {
 
@@ -31,36 +32,50 @@ double ms_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-/// One flight: the window, what draws in it, and the state that its user changes.
+/// A file of a folder that is not there yet: name-0001.ending and so on.
+std::filesystem::path fresh_file(const std::filesystem::path& folder, const char* name, const char* ending) {
+    std::filesystem::path file;
+    for (int i = 1; file.empty() || std::filesystem::exists(file); ++i)
+        file = folder / fmt::format("{}-{:04d}.{}", name, i, ending);
+    return file;
+}
+
+/// One flight: what draws in the window, and the state that its user changes.
 class Flight {
   public:
-    Flight(const lod::Scene& scene, const lod::Terrain& terrain, const EyeHeight& heights,
-           const ViewState& start, const FlightOptions& options, Window window, Ui ui, Renderer renderer)
-        : scene_(scene),
+    Flight(Desk& desk, const lod::Scene& scene, const lod::Terrain& terrain, const GroundData& ground,
+           const EyeHeight& heights, const ViewState& start, const FlightOptions& options, Renderer renderer)
+        : desk_(desk),
+          window_(desk.window()),
+          scene_(scene),
           terrain_(terrain),
+          ground_(ground),
           heights_(heights),
           options_(options),
-          window_(std::move(window)),
-          ui_(std::move(ui)),
           renderer_(std::move(renderer)),
           mesher_(terrain, options.chunks),
-          controls_(terrain, heights, options.forward_m_s),
+          motion_(terrain, heights, options.forward_m_s),
           sampler_(scene),
           budget_(options.budget, start.tau_px),
           view_(start),
-          playing_(options.play.has_value()) {
+          facts_(scene_facts(scene.info())) {
+        if (options.play) motion_.play(*options.play);
+        if (!options.record.empty()) recording_.emplace(options.record);
         figures_.gl = gl_description();
         figures_.samples = options.samples != 0 ? options.samples : gl_is_software() ? 1 : 4;
     }
 
     Result<FlightFigures> run() {
         while (!window_.should_close()) {
-            const bool idle = ground_rests() && !waves_move() && !playing_ && !controls_.moving(window_) &&
+            const bool busy = desk_.import() != nullptr || error_.busy();
+            const bool idle = ground_rests() && !waves_move() && !motion_.moving(window_) &&
                               options_.frames == 0 && still_frames_ > kSettlingFrames && budget_rests();
-            const Input& input = window_.poll(idle ? 0.5 : 0);
+            const Input& input = window_.poll(!idle ? 0 : busy ? 0.05 : 0.5);
             still_frames_ = input.anything ? 0 : still_frames_ + 1;
             if (options_.must_close()) break;
-            if (idle && !input.anything && !message_expired()) continue;
+            desk_.see_to_import();
+            if (desk_.has_next()) break;
+            if (idle && !busy && !input.anything && !desk_.message_expired()) continue;
             const glm::ivec2 size = window_.size();
             if (size.x <= 0 || size.y <= 0) {  // an icon
                 window_.poll(0.1);
@@ -84,7 +99,6 @@ class Flight {
   private:
     /// The user interface needs a few frames to come to rest after an event.
     static constexpr int kSettlingFrames = 3;
-    static constexpr double kMessageMs = 4000;
     static constexpr int kBudgetFrames = 100;
 
     /// What arrives fades in.
@@ -111,37 +125,25 @@ class Flight {
         return figures_.ocean.kind != OceanKind::off && view_.ocean.wind.speed_m_s > 0;
     }
 
-    bool message_expired() {
-        if (message_.empty() || ms_since(message_since_) < kMessageMs) return false;
-        message_.clear();
-        return true;
-    }
-
     /// At rest the budget goes on until tau does, too; but noise does not keep it going for ever.
     bool budget_rests() const { return budget_.at_rest() || still_frames_ > kBudgetFrames; }
 
-    Result<void> write_record() const {
-        if (options_.record.empty() || figures_.frames == 0) return {};
-        const FlightPath flown = recorder_.finish();
-        if (auto done = write_flight(flown, options_.record); !done) return done;
-        options_.say(fmt::format("flight {}: {:.1f} s, {} keys", options_.record.string(), flown.duration_s(),
-                                 flown.keys().size()));
+    Result<void> write_record() {
+        if (!recording_ || !recording_->recorder.any()) return {};
+        const FlightPath flown = recording_->recorder.finish();
+        if (auto done = write_flight(flown, recording_->file); !done) return done;
+        say(fmt::format("flight {}: {:.1f} s, {} keys", recording_->file.string(), flown.duration_s(),
+                        flown.keys().size()));
+        recording_.reset();
         return {};
     }
 
-    /// Moves the view: by the recorded flight while it goes on, else as the user says.
-    void move(const Input& input, double dt, int width, int height) {
-        if (playing_ && controls_.steered(window_, input)) playing_ = false;
-        if (!playing_) return controls_.steer(view_, window_, input, dt, width, height);
-        if (figures_.frames == 0) flight_start_ = Clock::now();
-        const double flown_s = ms_since(flight_start_) / 1000;
-        put(view_, options_.play->at(options_.play->begin_s() + flown_s));
-        playing_ = flown_s < options_.play->duration_s();
-    }
+    void tell(std::string message) { desk_.tell(std::move(message)); }
 
-    void tell(std::string message) {
-        message_ = std::move(message);
-        message_since_ = Clock::now();
+    /// What the user asked for: printed, and shown for a while.
+    void say(const std::string& line) {
+        options_.say(line);
+        tell(line);
     }
 
     Result<void> frame(const Input& input, int width, int height) {
@@ -153,19 +155,19 @@ class Flight {
             if (!made) return made.error();
             target_.emplace(std::move(*made));
         }
-        move(input, dt, width, height);
+        desk_.begin();
+        const Input ground_input = for_the_ground(input);
+        motion_.move(view_, window_, ground_input, dt, width, height);
         if (waves_move()) view_.ocean.time_s += dt;
-        if (auto done = read_ground(view_in(width, height), input); !done) return done;
+        if (auto done = read_ground(view_in(width, height), ground_input); !done) return done;
         // After the ground is read: what a key copies is what the cursor, moved in the same moment, is at.
-        bool screenshot = false;
-        for (const Input::Key& key : input.pressed) screenshot |= press(key, width, height);
-        if (!options_.record.empty()) {
-            if (figures_.frames == 0) record_start_ = start;
-            recorder_.see(view_, std::chrono::duration<double>(start - record_start_).count());
-        }
+        screenshot_ = false;
+        for (const Input::Key& key : ground_input.pressed) obey({press_key(view_, key), {}}, width, height);
+        for (const std::string& path : input.dropped) desk_.open(path);
+        if (recording_) recording_->see(view_, start);
         const lod::View view = view_in(width, height);
         if (auto done = draw(view); !done) return done;
-        draw_hud(view);
+        for (const Wish& wish : draw_interface(view)) obey(wish, width, height);
         // Without the wait for the screen, which a frame does not take longer for.
         if (options_.budget.frame_ms) gl_finish();
         const double memory_load = view_.method == Method::soar   ? terrain_.tiles().figures().memory_load
@@ -174,7 +176,7 @@ class Flight {
         const FrameCost cost{ms_since(start), figures_.triangles, memory_load};
         budget_.add(cost);
         within_budget_ += budget_.holds(cost);
-        if (screenshot) {
+        if (screenshot_) {
             if (auto done = take_screenshot(); !done) tell(done.error().message);
         }
         window_.show();
@@ -206,9 +208,11 @@ class Flight {
         };
         cursor_.reset();
         if (input.cursor_inside) {
-            auto under = measure(hit_at(input.cursor));
+            const auto hit = hit_at(input.cursor);
+            auto under = measure(hit);
             if (!under) return under.error();
             cursor_ = *under;
+            cursor_is_preview_ = hit && !hit->is_exact;
         }
         for (const glm::dvec2& click : input.clicks) {
             // What is measured does not depend on what is in memory.
@@ -223,6 +227,9 @@ class Flight {
                 }
             }
         }
+        if (input.double_click) {
+            if (const auto there = hit_at(*input.double_click)) go_near(view, *input.double_click, *there);
+        }
         const auto middle = hit_at({0.5 * view.camera().width, 0.5 * view.camera().height});
         middle_distance_.reset();
         if (middle) middle_distance_ = middle->distance_m;
@@ -233,6 +240,7 @@ class Flight {
         const auto start = Clock::now();
         if (view_.tau_px != finest_) budget_.set_finest(finest_ = view_.tau_px);
         const lod::Mesh& mesh = mesher_.mesh(view, view_, budget_);
+        mesh_ = &mesh;
         figures_.tau_reached_px = view_.method == Method::full ? view_.tau_px : budget_.tau_px();
         refine_times_.add(ms_since(start));
         figures_.triangles = mesh.triangles();
@@ -245,58 +253,201 @@ class Flight {
         return {};
     }
 
-    void draw_hud(const lod::View& view) {
+    /// What happened on the ground, and not in panels.
+    Input for_the_ground(const Input& input) const {
+        Input ground = input;
+        if (desk_.ui().has_mouse()) {
+            const glm::dvec2 cursor = input.cursor;
+            const std::vector<Input::Key> pressed = input.pressed;
+            ground = Input{};
+            ground.cursor = cursor;
+            ground.pressed = pressed;
+        }
+        if (desk_.ui().has_keys()) ground.pressed.clear();
+        return ground;
+    }
+
+    std::vector<Wish> draw_interface(const lod::View& view) {
         std::optional<double> reached;
         if (options_.budget.any() || figures_.tau_reached_px > view_.tau_px)
             reached = figures_.tau_reached_px;
         const HudContent content{.view = view_,
                                  .vertical = &scene_.info().vertical,
                                  .cursor = cursor_,
-                                 .above_ground_m = controls_.above_ground(view_),
-                                 .speed_m_s = controls_.speed(view_),
+                                 .above_ground_m = motion_.controls().above_ground(view_),
+                                 .speed_m_s = motion_.controls().speed(view_),
                                  .triangles = figures_.triangles,
                                  .tau_reached_px = reached,
                                  .tau_limit = options_.budget.any() ? "budget" : "memory",
-                                 .playing = playing_,
-                                 .recording = !options_.record.empty(),
+                                 .playing = motion_.playing(),
+                                 .recording = recording_.has_value(),
+                                 .following = motion_.controls().following(),
                                  .frame_ms = frame_times_.shown(),
                                  .pending = pending(),
                                  .middle_distance_m = middle_distance_,
-                                 .message = message_,
-                                 .keys_shown = keys_shown_};
-        ui_.begin();
-        draw_marks(content, ruler_, ruler_.on_ground(terrain_, view_.exaggeration), view);
-        draw_panels(content, ruler_);
-        ui_.end();
+                                 .message = desk_.message(),
+                                 .cursor_is_preview = cursor_is_preview_,
+                                 .keys_shown = panels_.keys_shown,
+                                 .panel_width = hidden_ ? 0 : panels_.panel_width(desk_),
+                                 .tools = {},
+                                 .facts = facts_,
+                                 .error = error_.report()};
+        std::vector<Wish> wishes;
+        if (!hidden_) {
+            draw_marks(content, ruler_, ruler_.on_ground(terrain_, view_.exaggeration), view);
+            draw_panels(content, ruler_);
+            wishes = panels_.draw(desk_, view_, content, scene_name(), key_frames_);
+        }
+        desk_.end();
+        return wishes;
     }
 
-    /// Does what a key says; true asks for a screenshot of this frame.
-    bool press(const Input::Key& key, int width, int height) {
-        switch (press_key(view_, key)) {
-            case KeyAction::none:
+    /// As settings name the scene.
+    std::string scene_name() const {
+        std::error_code failed;
+        return std::filesystem::absolute(scene_.path(), failed).lexically_normal().string();
+    }
+
+    void obey(const Wish& wish, int width, int height) {
+        switch (wish.command) {
+            case Command::none:
                 break;
-            case KeyAction::show_keys:
-                keys_shown_ = !keys_shown_;
+            case Command::open_file:
+                panels_.show_chooser();
                 break;
-            case KeyAction::clear_ruler:
-                ruler_.clear();
+            case Command::show_keys:
+                panels_.keys_shown = !panels_.keys_shown;
                 break;
-            case KeyAction::copy_place:
+            case Command::show_panel:
+                desk_.show_panel(!desk_.panel_shown());
+                break;
+            case Command::hide_all:
+                hidden_ = !hidden_;
+                break;
+            case Command::light_or_dark:
+                desk_.settings().light = !desk_.settings().light;
+                desk_.look_again();
+                break;
+            case Command::go_to:
+                go_to(wish.text);
+                break;
+            case Command::add_bookmark:
+                add_bookmark();
+                break;
+            case Command::copy_place:
                 copy_place();
                 break;
-            case KeyAction::copy_view:
+            case Command::copy_view:
                 copy("view", to_string(view_));
                 break;
-            case KeyAction::screenshot:
-                return true;
-            case KeyAction::close:
-                window_.close();
+            case Command::paste_view:
+                paste_view(wish.text.empty() ? window_.clipboard() : wish.text);
                 break;
-            case KeyAction::whole_scene:
+            case Command::whole_scene:
                 look_over(view_, terrain_, scene_.info(), heights_, width, height);
                 break;
+            case Command::level:
+                view_.pitch = view_.roll = geo::Degrees{0};
+                break;
+            case Command::follow_ground:
+                tell(motion_.controls().toggle_following(view_) ? "following the ground"
+                                                                : "not following the ground");
+                break;
+            case Command::record:
+                toggle_recording();
+                break;
+            case Command::add_key_frame:
+                key_frames_.keys.push_back(key_of(view_, 0));
+                tell(fmt::format("key frame {}", key_frames_.keys.size()));
+                break;
+            case Command::play_key_frames:
+                play_key_frames();
+                break;
+            case Command::measure_error:
+                error_.begin(terrain_, view_in(width, height), *mesh_, view_.exaggeration, view_.tau_px);
+                desk_.show_panel(true);
+                break;
+            case Command::screenshot:
+                screenshot_ = true;
+                break;
+            case Command::large_screenshot:
+                take_large_screenshot(width, height);
+                break;
+            case Command::clear:
+                if (!panels_.close()) ruler_.clear();
+                break;
+            case Command::close:
+                window_.close();
+                break;
+            default:
+                break;
         }
-        return false;
+    }
+
+    /// Towards what was clicked twice: a third of the way is left, or 50 m.
+    void go_near(const lod::View& view, const glm::dvec2& pixel, const lod::Hit& there) {
+        const geo::Geodetic target = geo::to_geodetic(view.eye() + there.distance_m * view.ray(pixel));
+        ViewState to = view_;
+        look_at(to, heights_, target, std::max(there.distance_m / 3, 50.0));
+        motion_.fly_to(view_, to);
+    }
+
+    /// To a place, in the middle of the picture and as far away as what is there now; or to a view. Asks
+    /// where there is no text.
+    void go_to(const std::string& text) {
+        if (text.empty()) return panels_.show_go_to();
+        if (text.find('/') != std::string::npos) return paste_view(text);
+        const auto place = geo::parse_lat_lon(text);
+        if (!place) return panels_.complain_of_go_to(place.error().message);
+        const double ground_m = ground_height(terrain_, *place, view_.exaggeration)
+                                    .value_or(geo::EllipsoidalHeight{heights_.undulation(*place).m})
+                                    .m;
+        ViewState to = view_;
+        look_at(to, heights_, {place->lat, place->lon, {ground_m}},
+                std::clamp(middle_distance_.value_or(5000), 100.0, 1e6));
+        motion_.fly_to(view_, to);
+    }
+
+    void paste_view(const std::string& text) {
+        const auto view = parse_view_state(text, view_);
+        if (!view) return tell(fmt::format("this is no view: {}", view.error().message));
+        ViewState to = *view;
+        to.ocean.map = view_.ocean.map;
+        std::swap(to, view_);  // how it is drawn at once, where one is by a short flight
+        const ViewState there = view_;
+        put(view_, key_of(to, 0));
+        motion_.fly_to(view_, there);
+    }
+
+    void add_bookmark() {
+        std::vector<Bookmark>& marks = desk_.settings().bookmarks;
+        marks.push_back({place_text(view_.place), scene_name(), to_string(view_)});
+        desk_.show_panel(true);
+        desk_.save();
+        tell("bookmark added");
+    }
+
+    void toggle_recording() {
+        if (recording_) {
+            if (auto done = write_record(); !done) tell(done.error().message);
+            recording_.reset();
+        } else {
+            recording_.emplace(fresh_file(options_.output_folder, "flight", "flight"));
+            tell("recording; R again ends it");
+        }
+    }
+
+    void play_key_frames() {
+        std::vector<FlightKey> keys = key_frames_.keys;
+        for (std::size_t i = 0; i < keys.size(); ++i)
+            keys[i].time_s = static_cast<double>(i) * key_frames_.seconds_between;
+        if (keys.size() < 2) return tell("a path needs two key frames (K) at least");
+        auto path = FlightPath::create(std::move(keys));
+        if (!path) return tell(path.error().message);
+        const auto file = fresh_file(options_.output_folder, "path", "flight");
+        if (auto done = write_flight(*path, file); !done) return tell(done.error().message);
+        say(fmt::format("path {}", file.string()));
+        motion_.play(*std::move(path));
     }
 
     void copy_place() {
@@ -313,47 +464,69 @@ class Flight {
     }
 
     Result<void> take_screenshot() {
-        std::filesystem::path file;
-        do {
-            file = options_.screenshot_folder / fmt::format("relevo-{:04d}.png", ++screenshots_);
-        } while (std::filesystem::exists(file));
+        const auto file = fresh_file(options_.output_folder, "relevo", "png");
         if (auto done = write_picture(window_.read_back(), file, to_string(view_)); !done) return done;
-        options_.say(fmt::format("screenshot {}", file.string()));
-        tell(fmt::format("wrote {}", file.string()));
+        say(fmt::format("screenshot {}", file.string()));
         return {};
     }
 
+    /// Four times as wide and as high as the window, without read-outs, as `render` draws it.
+    void take_large_screenshot(int width, int height) {
+        constexpr int kTimes = 4;
+        const int times = std::min(kTimes, kLargestPicture / std::max(width, height));
+        const auto file = fresh_file(options_.output_folder, "relevo", "png");
+        const auto drawn = draw_picture(terrain_, ground_, heights_, view_,
+                                        {.width = times * width, .height = times * height, .samples = 1});
+        if (!drawn) return tell(drawn.error().message);
+        if (auto done = write_picture(drawn->picture, file, to_string(view_)); !done)
+            return tell(done.error().message);
+        say(fmt::format("picture {}", file.string()));
+    }
+
+    /// What is flown, from its first frame on.
+    struct Recording {
+        explicit Recording(std::filesystem::path to) : file(std::move(to)) {}
+        void see(const ViewState& view, Clock::time_point now) {
+            if (!recorder.any()) begin = now;
+            recorder.see(view, std::chrono::duration<double>(now - begin).count());
+        }
+        std::filesystem::path file;
+        FlightRecorder recorder;
+        Clock::time_point begin{};
+    };
+
+    Desk& desk_;
+    Window& window_;
     const lod::Scene& scene_;
     const lod::Terrain& terrain_;
+    const GroundData& ground_;
     const EyeHeight& heights_;
     const FlightOptions& options_;
-    // In this order: what is drawn with goes before the context that it lives in.
-    Window window_;
-    Ui ui_;
     Renderer renderer_;
     std::optional<RenderTarget> target_;
     Mesher mesher_;
-    FlightControls controls_;
+    Motion motion_;
     lod::HeightSampler sampler_;
     Ruler ruler_;
     FrameBudget budget_;
-    FlightRecorder recorder_;
+    std::optional<Recording> recording_;
     ViewState view_;
     double finest_ = view_.tau_px;  // tau, as the budget knows it
-    bool playing_;
-    Clock::time_point flight_start_{};
-    Clock::time_point record_start_{};
     std::uint64_t within_budget_ = 0;
 
+    Panels panels_;
+    Panels::KeyFrames key_frames_;
+    ErrorProbe error_;
+    std::vector<std::string> facts_;
+    const lod::Mesh* mesh_ = nullptr;  // of the last frame
     std::optional<lod::PointMeasurement> cursor_;
+    bool cursor_is_preview_ = false;
     std::optional<double> middle_distance_;
-    bool keys_shown_ = false;
-    std::string message_;
-    Clock::time_point message_since_{};
+    bool hidden_ = false;
+    bool screenshot_ = false;
     Clock::time_point last_frame_ = Clock::now();
     Clock::time_point last_pending_{};
     int still_frames_ = 0;
-    int screenshots_ = 0;
 
     FlightFigures figures_;
     FrameTimes frame_times_;
@@ -362,17 +535,13 @@ class Flight {
 
 }  // namespace
 
-Result<FlightFigures> fly(const lod::Scene& scene, const lod::Terrain& terrain, const GroundData& ground,
-                          const EyeHeight& heights, const ViewState& start, const FlightOptions& options) {
-    auto window = Window::create(options.width, options.height,
-                                 fmt::format("{} - Relevo", scene.path().filename().string()));
-    if (!window) return window.error();
-    auto ui = Ui::create(*window, options.ui_scale > 0 ? options.ui_scale : window->scale());
-    if (!ui) return ui.error();
+Result<FlightFigures> fly(Desk& desk, const lod::Scene& scene, const lod::Terrain& terrain,
+                          const GroundData& ground, const EyeHeight& heights, const ViewState& start,
+                          const FlightOptions& options) {
+    desk.window().set_title(fmt::format("{} - Relevo", scene.path().filename().string()));
     auto renderer = Renderer::create(terrain, ground);
     if (!renderer) return renderer.error();
-    Flight flight(scene, terrain, heights, start, options, std::move(*window), std::move(*ui),
-                  std::move(*renderer));
+    Flight flight(desk, scene, terrain, ground, heights, start, options, *std::move(renderer));
     return flight.run();
 }
 

@@ -15,13 +15,12 @@
 #include "viewer/frame_budget.hpp"
 #include "viewer/ground/ground_data.hpp"
 #include "viewer/ocean/ocean.hpp"
+#include "viewer/ui/desk.hpp"
 #include "viewer/view_state.hpp"
 
 namespace relevo::viewer {
 
 struct FlightOptions {
-    int width = 1280;
-    int height = 720;
     int samples = 0;                      ///< 1, 4 or 8 a pixel; 0: 4, or 1 where OpenGL runs in software
     double forward_m_s = 0;               ///< flies ahead by itself until a key is pressed
     std::uint64_t frames = 0;             ///< closes after so many; 0: when the user does
@@ -29,8 +28,7 @@ struct FlightOptions {
     std::filesystem::path record = {};    ///< where what is flown is written in the end; empty: nowhere
     lod::ChunkOptions chunks = {};        ///< how nodes are kept and loaded, with Method::lstr
     BudgetLimits budget = {};             ///< where it has limits, tau adapts to them
-    double ui_scale = 0;                  ///< of letters and marks; 0: what the screen says
-    std::filesystem::path screenshot_folder = ".";
+    std::filesystem::path output_folder = ".";  ///< of pictures, flights and measurements
     /// Called with each line that the user asked for: copied coordinates, copied views, screenshots.
     std::function<void(const std::string&)> say = [](const std::string&) {};
     /// Asked before each frame, twice a second at rest: is the window to be closed?
@@ -55,8 +53,9 @@ struct FlightFigures {
     std::optional<double> frames_within_budget;  ///< part of the frames that kept to it, 0 to 1
 };
 
-/// Opens a window on a scene and returns when it is closed.
-Result<FlightFigures> fly(const lod::Scene& scene, const lod::Terrain& terrain, const GroundData& ground,
-                          const EyeHeight& heights, const ViewState& start, const FlightOptions& options);
+/// Shows a scene and returns when the window is closed, or when the desk has another one to open.
+Result<FlightFigures> fly(Desk& desk, const lod::Scene& scene, const lod::Terrain& terrain,
+                          const GroundData& ground, const EyeHeight& heights, const ViewState& start,
+                          const FlightOptions& options);
 
 }  // namespace relevo::viewer

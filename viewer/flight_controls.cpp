@@ -72,7 +72,45 @@ bool FlightControls::keys_held(const Window& window) const {
 
 bool FlightControls::steered(const Window& window, const Input& input) const {
     return keys_held(window) || !input.pressed.empty() || input.drag_left != glm::dvec2(0) ||
-           input.drag_right != glm::dvec2(0);
+           input.drag_right != glm::dvec2(0) || input.drag_middle != glm::dvec2(0);
+}
+
+bool FlightControls::toggle_following(const ViewState& view) {
+    clearance_m_ = clearance_m_ ? std::nullopt : above_ground(view);
+    return following();
+}
+
+void FlightControls::follow_ground(ViewState& view, double climbed_m, double dt) {
+    const auto above = above_ground(view);
+    if (!clearance_m_ || !above) return;
+    *clearance_m_ = std::max(*clearance_m_ + climbed_m, kClearanceM);
+    // Two thirds of the way in half a second: bumps are flown over, slopes are followed.
+    view.H.m += (*clearance_m_ - *above) * (1 - std::exp(-dt / 0.5));
+}
+
+std::optional<geo::Ecef> FlightControls::ground_at(const lod::View& seen, const glm::dvec2& pixel,
+                                                   double exaggeration) const {
+    const glm::dvec3 ray = seen.ray(pixel);
+    const auto hit = lod::pick(terrain_, seen.eye(), ray, exaggeration);
+    if (!hit) return std::nullopt;
+    return seen.eye() + hit->distance_m * ray;
+}
+
+Pose FlightControls::grabbed(const Pose& pose, const lod::View& seen, const glm::dvec2& cursor) const {
+    // On the horizontal plane through what is held. Towards the horizon a pixel would be kilometres.
+    const geo::EnuFrame local(geo::to_geodetic(*grabbed_));
+    const glm::dvec3 ray = seen.ray(cursor);
+    const double fall = -glm::dot(ray, local.up());
+    constexpr double kFlattest = 0.03;
+    if (fall < kFlattest) return pose;
+    const glm::dvec3 to_grabbed = *grabbed_ - seen.eye();
+    const glm::dvec3 under_cursor = ray * (-glm::dot(to_grabbed, local.up()) / fall);
+    const glm::dvec3 way = to_grabbed - under_cursor;
+    const double east = glm::dot(way, local.east());
+    const double north = glm::dot(way, local.north());
+    const double heading = pose.heading.radians();
+    return moved(pose, east * std::sin(heading) + north * std::cos(heading),
+                 east * std::cos(heading) - north * std::sin(heading), 0);
 }
 
 void FlightControls::keep_above_ground(ViewState& view) const {
@@ -93,13 +131,10 @@ void FlightControls::steer(ViewState& view, const Window& window, const Input& i
         pose, geo::Degrees{-input.drag_left.x * degrees_per_px + turn_axis(window) * kTurnDegreesPerS * dt},
         geo::Degrees{input.drag_left.y * degrees_per_px});
 
-    if (input.right_pressed_at) {
-        const lod::View seen(camera_of(view, heights_, width, height));
-        const glm::dvec3 ray = seen.ray(*input.right_pressed_at);
-        const auto hit = lod::pick(terrain_, seen.eye(), ray, view.exaggeration);
-        centre_.reset();
-        if (hit) centre_ = seen.eye() + hit->distance_m * ray;
-    }
+    const lod::View seen(camera_of(view, heights_, width, height));
+    if (input.right_pressed_at) centre_ = ground_at(seen, *input.right_pressed_at, view.exaggeration);
+    if (input.middle_pressed_at) grabbed_ = ground_at(seen, *input.middle_pressed_at, view.exaggeration);
+    if (grabbed_ && input.drag_middle != glm::dvec2(0)) pose = grabbed(pose, seen, input.cursor);
     if (centre_ && input.drag_right != glm::dvec2(0)) {
         pose = orbited(pose, *centre_, geo::Degrees{input.drag_right.x * kOrbitDegreesPerPx},
                        geo::Degrees{input.drag_right.y * kOrbitDegreesPerPx});
@@ -116,6 +151,7 @@ void FlightControls::steer(ViewState& view, const Window& window, const Input& i
                          pose.eye.h != before.eye.h || pose.heading != before.heading ||
                          pose.pitch != before.pitch;
     if (changed) put(view, pose);
+    follow_ground(view, up, dt);
     keep_above_ground(view);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lod/terrain.hpp"
+#include "lod/view.hpp"
 #include "viewer/eye_height.hpp"
 #include "viewer/input.hpp"
 #include "viewer/pose.hpp"
@@ -30,6 +31,10 @@ class FlightControls {
     /// Of the eye above the ground as it is drawn; nothing outside the data and over voids.
     std::optional<double> above_ground(const ViewState& view) const;
 
+    /// Keeps the height above the ground, or lets go of it; says which. Off where there is no ground.
+    bool toggle_following(const ViewState& view);
+    bool following() const { return clearance_m_.has_value(); }
+
     /// The least height of the eye above the drawn ground, metres.
     static constexpr double kClearanceM = 2;
 
@@ -38,12 +43,19 @@ class FlightControls {
     Pose pose_of(const ViewState& view) const;
     void put(ViewState& view, const Pose& pose) const;
     void keep_above_ground(ViewState& view) const;
+    void follow_ground(ViewState& view, double climbed_m, double dt);
+    /// Where the ray through a pixel meets the ground as far as it is in memory.
+    std::optional<geo::Ecef> ground_at(const lod::View& seen, const glm::dvec2& pixel,
+                                       double exaggeration) const;
+    Pose grabbed(const Pose& pose, const lod::View& seen, const glm::dvec2& cursor) const;
 
     const lod::Terrain& terrain_;
     const EyeHeight& heights_;
     double forward_m_s_;
     double wheel_ = 0;
-    std::optional<geo::Ecef> centre_;  // of going round
+    std::optional<geo::Ecef> centre_;    // of going round
+    std::optional<geo::Ecef> grabbed_;   // what moves with the cursor
+    std::optional<double> clearance_m_;  // of following the ground
 };
 
 }  // namespace relevo::viewer

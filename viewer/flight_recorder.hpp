@@ -16,6 +16,9 @@ class FlightRecorder {
     /// To be told the view of each frame. \param time_s  since the flight began, growing
     void see(const ViewState& view, double time_s);
 
+    /// Was it told any view?
+    bool any() const { return !keys_.empty(); }
+
     /// What was flown, rounded to below what a camera shows (1e-8 degrees of the place, 1 mm of height, 1e-4
     /// degrees of the others). \pre at least one view was seen
     FlightPath finish() const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -13,6 +14,7 @@ struct Input {
     struct Key {
         int number = 0;        ///< GLFW's
         bool control = false;  ///< held with it
+        bool shift = false;    ///< likewise
     };
 
     std::vector<Key> pressed;  ///< in order
@@ -20,10 +22,14 @@ struct Input {
     bool cursor_inside = false;
     glm::dvec2 drag_left{0};  ///< of the cursor while the button was down and no longer a click
     glm::dvec2 drag_right{0};
-    std::optional<glm::dvec2> right_pressed_at;  ///< where the right button went down
-    std::vector<glm::dvec2> clicks;              ///< of the left button: down and up again in one place
-    double wheel = 0;                            ///< turns, up is positive
-    bool anything = false;                       ///< any event at all
+    glm::dvec2 drag_middle{0};
+    std::optional<glm::dvec2> right_pressed_at;   ///< where the right button went down
+    std::optional<glm::dvec2> middle_pressed_at;  ///< and the middle one
+    std::vector<glm::dvec2> clicks;               ///< of the left button: down and up again in one place
+    std::optional<glm::dvec2> double_click;       ///< the second of two clicks, which is in `clicks` too
+    std::vector<std::string> dropped;             ///< files and folders
+    double wheel = 0;                             ///< turns, up is positive
+    bool anything = false;                        ///< any event at all
 };
 
 }  // namespace relevo::viewer

@@ -16,6 +16,7 @@ namespace {
 
 /// A button that went up within this many pixels of where it went down was a click, not a drag.
 constexpr double kClickPx = 4;
+constexpr double kDoubleClickS = 0.35;
 
 std::string glfw_error() {
     const char* text = nullptr;
@@ -34,6 +35,7 @@ Error no_window(const std::string& why) {
 
 struct Window::State {
     GLFWwindow* window = nullptr;
+    bool typing = false;
     Input now;       // what poll() gave
     Input gathered;  // what the callbacks have seen since
 
@@ -42,7 +44,9 @@ struct Window::State {
         bool dragging = false;
         glm::dvec2 at{0};
     };
-    Press left, right;
+    Press left, right, middle;
+    double last_click_s = -1;
+    glm::dvec2 last_click_at{0};
 
     void cursor_moved(const glm::dvec2& to) {
         const auto drag = [&](Press& press, glm::dvec2& sum) {
@@ -52,24 +56,41 @@ struct Window::State {
         };
         drag(left, gathered.drag_left);
         drag(right, gathered.drag_right);
+        drag(middle, gathered.drag_middle);
         gathered.cursor = to;
         gathered.cursor_inside = true;
         gathered.anything = true;
     }
 
-    void button(int which, int action) {
+    void button(int which, int action, int modifiers) {
         gathered.anything = true;
-        Press* press = which == GLFW_MOUSE_BUTTON_LEFT    ? &left
-                       : which == GLFW_MOUSE_BUTTON_RIGHT ? &right
-                                                          : nullptr;
+        // Shift and the left button do what the middle one does, which touchpads have not.
+        if (which == GLFW_MOUSE_BUTTON_LEFT &&
+            (action == GLFW_PRESS ? (modifiers & GLFW_MOD_SHIFT) != 0 : !left.down && middle.down))
+            which = GLFW_MOUSE_BUTTON_MIDDLE;
+        Press* press = which == GLFW_MOUSE_BUTTON_LEFT     ? &left
+                       : which == GLFW_MOUSE_BUTTON_RIGHT  ? &right
+                       : which == GLFW_MOUSE_BUTTON_MIDDLE ? &middle
+                                                           : nullptr;
         if (press == nullptr) return;
         if (action == GLFW_PRESS) {
             *press = {true, false, gathered.cursor};
             if (press == &right) gathered.right_pressed_at = gathered.cursor;
+            if (press == &middle) gathered.middle_pressed_at = gathered.cursor;
         } else {
-            if (press == &left && press->down && !press->dragging) gathered.clicks.push_back(press->at);
+            if (press == &left && press->down && !press->dragging) click(press->at);
             press->down = false;
         }
+    }
+
+    void click(const glm::dvec2& at) {
+        gathered.clicks.push_back(at);
+        const double time_s = glfwGetTime();
+        const bool second =
+            time_s - last_click_s < kDoubleClickS && glm::distance(at, last_click_at) <= kClickPx;
+        if (second) gathered.double_click = at;
+        last_click_s = second ? -1 : time_s;
+        last_click_at = at;
     }
 };
 
@@ -101,7 +122,9 @@ Result<Window> Window::create(int width, int height, const std::string& title) {
     glfwSetKeyCallback(state->window, [](GLFWwindow* window, int key, int, int action, int modifiers) {
         auto* to = static_cast<State*>(glfwGetWindowUserPointer(window));
         to->gathered.anything = true;
-        if (action == GLFW_PRESS) to->gathered.pressed.push_back({key, (modifiers & GLFW_MOD_CONTROL) != 0});
+        if (action != GLFW_PRESS) return;
+        to->gathered.pressed.push_back(
+            {key, (modifiers & GLFW_MOD_CONTROL) != 0, (modifiers & GLFW_MOD_SHIFT) != 0});
     });
     glfwSetCursorPosCallback(state->window, [](GLFWwindow* window, double x, double y) {
         auto* to = static_cast<State*>(glfwGetWindowUserPointer(window));
@@ -111,8 +134,8 @@ Result<Window> Window::create(int width, int height, const std::string& title) {
         glfwGetFramebufferSize(window, &pixels, nullptr);
         to->cursor_moved(glm::dvec2(x, y) * (static_cast<double>(pixels) / std::max(inside, 1)));
     });
-    glfwSetMouseButtonCallback(state->window, [](GLFWwindow* window, int button, int action, int) {
-        static_cast<State*>(glfwGetWindowUserPointer(window))->button(button, action);
+    glfwSetMouseButtonCallback(state->window, [](GLFWwindow* window, int button, int action, int modifiers) {
+        static_cast<State*>(glfwGetWindowUserPointer(window))->button(button, action, modifiers);
     });
     glfwSetScrollCallback(state->window, [](GLFWwindow* window, double, double y) {
         auto* to = static_cast<State*>(glfwGetWindowUserPointer(window));
@@ -122,6 +145,11 @@ Result<Window> Window::create(int width, int height, const std::string& title) {
     glfwSetCursorEnterCallback(state->window, [](GLFWwindow* window, int entered) {
         auto* to = static_cast<State*>(glfwGetWindowUserPointer(window));
         to->gathered.cursor_inside = entered == GLFW_TRUE;
+        to->gathered.anything = true;
+    });
+    glfwSetDropCallback(state->window, [](GLFWwindow* window, int count, const char** paths) {
+        auto* to = static_cast<State*>(glfwGetWindowUserPointer(window));
+        to->gathered.dropped.insert(to->gathered.dropped.end(), paths, paths + count);
         to->gathered.anything = true;
     });
     glfwSetFramebufferSizeCallback(state->window, [](GLFWwindow* window, int, int) {
@@ -171,7 +199,20 @@ const Input& Window::poll(double wait_s) {
 }
 
 bool Window::held(int key) const {
-    return glfwGetKey(state_->window, key) == GLFW_PRESS;
+    return !state_->typing && glfwGetKey(state_->window, key) == GLFW_PRESS;
+}
+
+void Window::set_typing(bool typing) {
+    state_->typing = typing;
+}
+
+std::string Window::clipboard() const {
+    const char* text = glfwGetClipboardString(state_->window);
+    return text != nullptr ? text : "";
+}
+
+void Window::set_title(const std::string& title) {
+    glfwSetWindowTitle(state_->window, title.c_str());
 }
 
 void Window::set_clipboard(const std::string& text) {

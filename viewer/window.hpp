@@ -29,7 +29,12 @@ class Window {
     /// Takes in what happened; with a wait, sleeps until something does or the time is over. Seconds.
     const Input& poll(double wait_s);
     bool held(int key) const;
+    /// While something is being typed in no key counts as held.
+    void set_typing(bool typing);
 
+    void set_title(const std::string& title);
+    /// Empty where there is no text.
+    std::string clipboard() const;
     void set_clipboard(const std::string& text);
     /// The picture that is about to be shown.
     Picture read_back() const;

@@ -63,6 +63,7 @@ class Desktop {
         if (program_ == 0) {
             setenv("DISPLAY", (":" + number_).c_str(), 1);
             unsetenv("WAYLAND_DISPLAY");
+            setenv("XDG_CONFIG_HOME", out.parent_path().c_str(), 1);  // the user's own settings stay
             dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644), 1);
             dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644), 2);
             std::vector<char*> arguments;

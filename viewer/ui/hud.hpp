@@ -3,14 +3,25 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "lod/measure/point.hpp"
 #include "lod/scene/scene_info.hpp"
 #include "lod/view.hpp"
+#include "viewer/flight_keys.hpp"
 #include "viewer/ruler.hpp"
 #include "viewer/view_state.hpp"
 
 namespace relevo::viewer {
+
+/// A tool of the tool bar, and whether it is the one in hand.
+struct Tool {
+    const char* name;
+    Command command;
+    const char* what;
+    bool on;
+};
 
 /// What the read-out says.
 struct HudContent {
@@ -24,12 +35,18 @@ struct HudContent {
     std::string_view tau_limit;            ///< what makes it so
     bool playing = false;                  ///< a recorded flight
     bool recording = false;
+    bool following = false;  ///< the ground
     double frame_ms = 0;
     std::size_t pending = 0;  ///< pieces of the ground that are being loaded
     std::optional<double>
-        middle_distance_m;  ///< to the ground in the middle of the picture, for the scale bar
-    std::string message;    ///< what was just done
+        middle_distance_m;           ///< to the ground in the middle of the picture, for the scale bar
+    std::string message;             ///< what was just done
+    bool cursor_is_preview = false;  ///< of the place: finer ground is being read
     bool keys_shown = false;
+    float panel_width = 0;           ///< what the side panel covers, in the user interface's units
+    std::vector<Tool> tools;         ///< of the tool bar
+    std::vector<std::string> facts;  ///< of the scene
+    std::vector<std::string> error;  ///< of the picture, measured
 };
 
 /// "H 4372.0 m above EGM96 (assumed)   h 4357.3 m": heights of a point with their datums, or why there are

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "viewer/hud.hpp"
+#include "viewer/ui/hud.hpp"
 
 namespace relevo::viewer {
 
@@ -32,10 +32,12 @@ void label(ImDrawList& list, ImVec2 middle, const std::string& what) {
 }
 
 /// A rose in the upper right corner: its needle points north, up is where the eye looks.
-void compass(ImDrawList& list, geo::Degrees heading) {
+void compass(ImDrawList& list, geo::Degrees heading, float panel_width) {
     const float letter = ImGui::GetFontSize();
     const float radius = 2.2f * letter;
-    const ImVec2 middle(ImGui::GetIO().DisplaySize.x - radius - letter, radius + letter);
+    const float toolbar = ImGui::GetFrameHeightWithSpacing() + ImGui::GetStyle().WindowPadding.y;
+    const ImVec2 middle(ImGui::GetIO().DisplaySize.x - panel_width - radius - letter,
+                        toolbar + radius + letter);
     list.AddCircleFilled(middle, radius, IM_COL32(13, 15, 20, 150), 48);
     list.AddCircle(middle, radius, kLight, 48, 1.5f);
     const auto at = [&](double degrees, float part) {
@@ -61,13 +63,14 @@ double round_length(double most) {
 }
 
 /// A bar as long as that many metres across the view at the distance of the picture's middle.
-void scale_bar(ImDrawList& list, double distance_m, const lod::View& view, float ui_per_px) {
+void scale_bar(ImDrawList& list, double distance_m, const lod::View& view, float ui_per_px,
+               float panel_width) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const float letter = ImGui::GetFontSize();
     const double metres_per_ui = distance_m / (view.focal_px() * static_cast<double>(ui_per_px));
     const double metres = round_length(metres_per_ui * 0.22 * static_cast<double>(size.x));
     const auto length = static_cast<float>(metres / metres_per_ui);
-    const float right = size.x - letter;
+    const float right = size.x - panel_width - letter;
     const float y = size.y - 6.5f * letter;
     for (const auto& [colour, width] : {std::pair(kDark, 5.0f), std::pair(kLight, 2.0f)}) {
         list.AddLine({right - length, y}, {right, y}, colour, width);
@@ -121,8 +124,9 @@ void draw_marks(const HudContent& content, const Ruler& ruler, const std::vector
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const float ui_per_px = ImGui::GetIO().DisplaySize.x / static_cast<float>(view.camera().width);
     ruler_marks(list, ruler, ruler_line, view, ui_per_px);
-    compass(list, content.view.heading);
-    if (content.middle_distance_m) scale_bar(list, *content.middle_distance_m, view, ui_per_px);
+    compass(list, content.view.heading, content.panel_width);
+    if (content.middle_distance_m)
+        scale_bar(list, *content.middle_distance_m, view, ui_per_px, content.panel_width);
 }
 
 }  // namespace relevo::viewer

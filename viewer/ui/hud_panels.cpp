@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "viewer/hud.hpp"
+#include "viewer/ui/hud.hpp"
 
 namespace relevo::viewer {
 
 namespace {
 
-enum class Corner { upper_left, below_last, bottom, middle };
+enum class Corner { upper_left, top, below_last, bottom, middle };
 
 /// A panel of lines that is as large as its text, and takes neither clicks nor keys.
 class Panel {
@@ -18,10 +18,14 @@ class Panel {
     Panel(const char* name, Corner corner, float last_bottom = 0) {
         const ImVec2 size = ImGui::GetIO().DisplaySize;
         const float margin = 0.5f * ImGui::GetFontSize();
-        ImVec2 at(margin, margin);
+        // Below the tool bar.
+        ImVec2 at(margin, margin + ImGui::GetFrameHeightWithSpacing() + ImGui::GetStyle().WindowPadding.y);
         ImVec2 pivot(0, 0);
         switch (corner) {
             case Corner::upper_left:
+                break;
+            case Corner::top:
+                at.x = 0.5f * size.x, pivot.x = 0.5f;
                 break;
             case Corner::below_last:
                 at.y = last_bottom;
@@ -79,6 +83,7 @@ float view_panel(const HudContent& content) {
     panel.line(fmt::format("{:.1f} ms a frame", content.frame_ms));
     if (content.playing) panel.line("recorded flight; any key stops it");
     if (content.recording) panel.line("recording");
+    if (content.following) panel.line("following the ground");
     if (content.pending > 0) panel.line(fmt::format("loading {}", content.pending));
     if (view.exaggeration != 1) panel.line(fmt::format("heights x {:.3g}", view.exaggeration));
     if (view.layer != Layer::hypsometric) panel.line(std::string(to_string(view.layer)));
@@ -92,8 +97,23 @@ void cursor_panel(const HudContent& content) {
         panel.line("no ground under the cursor        F1: keys");
         return;
     }
-    panel.line(fmt::format("{}   {}", place_text(content.cursor->place),
-                           heights_text(*content.cursor, *content.vertical)));
+    panel.line(fmt::format("{}   {}{}", place_text(content.cursor->place),
+                           heights_text(*content.cursor, *content.vertical),
+                           content.cursor_is_preview ? "   (preview: finer ground is coming)" : ""));
+}
+
+/// Says that the picture is not what was asked for, and why. Nothing where it is.
+void banner(const HudContent& content) {
+    std::string what;
+    if (content.tau_reached_px)
+        what = fmt::format("coarser than asked: {:.2f} px, not {:.3g}, by {}", *content.tau_reached_px,
+                           content.view.tau_px, content.tau_limit);
+    if (content.pending > 0)
+        what += fmt::format("{}{} pieces of the ground are coming", what.empty() ? "not yet whole: " : "; ",
+                            content.pending);
+    if (what.empty()) return;
+    Panel panel("banner", Corner::top);
+    panel.line(what);
 }
 
 void ruler_panel(const Ruler& ruler, const lod::VerticalReference& vertical, float top) {
@@ -114,32 +134,8 @@ void ruler_panel(const Ruler& ruler, const lod::VerticalReference& vertical, flo
 void keys_panel() {
     ImGui::SetNextWindowBgAlpha(0.92f);
     Panel panel("keys", Corner::middle);
-    struct Key {
-        const char* keys;
-        const char* what;
-    };
-    static constexpr Key kKeys[] = {{"W S / up, down", "ahead, back"},
-                                    {"A D / left, right", "left, right (arrows turn)"},
-                                    {"E Q / page up, down", "up, down"},
-                                    {"Shift", "four times as fast"},
-                                    {"left drag", "look around"},
-                                    {"right drag", "go round the point under the cursor"},
-                                    {"wheel", "speed"},
-                                    {"left click, twice", "measure a distance; Esc clears"},
-                                    {"+ -", "tau: coarser, finer"},
-                                    {"L", "wireframe by level"},
-                                    {"M", "morphing on, off"},
-                                    {"X Z", "more, less exaggeration"},
-                                    {"1 2 3 4 5", "tints, hillshade, slope, levels, terrain"},
-                                    {"N", "north up"},
-                                    {"Home", "the whole scene"},
-                                    {"C", "copy the coordinates under the cursor"},
-                                    {"V", "copy the view (for --at)"},
-                                    {"P, F12", "screenshot"},
-                                    {"F1", "this list"},
-                                    {"Ctrl Q", "close"}};
     ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit);
-    for (const Key& key : kKeys) {
+    for (const KeyHelp& key : key_list()) {
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
         ImGui::TextUnformatted(key.keys);
@@ -177,6 +173,7 @@ void draw_panels(const HudContent& content, const Ruler& ruler) {
     const float top = view_panel(content);
     ruler_panel(ruler, *content.vertical, top);
     cursor_panel(content);
+    banner(content);
     if (content.keys_shown) keys_panel();
 }
 

@@ -1,4 +1,4 @@
-#include "viewer/ui.hpp"
+#include "viewer/ui/ui.hpp"
 
 #include <cmath>
 #include <cstdlib>
@@ -55,20 +55,14 @@ void Ui::Release::operator()(int* started) const {
     delete started;
 }
 
-Result<Ui> Ui::create(const Window& window, double scale) {
+Result<Ui> Ui::create(const Window& window) {
     std::unique_ptr<int, Release> started(new int(0));
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     *started = 1;
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;  // leaves nothing behind in the current folder
-    load_font(io, static_cast<float>(scale));
-    ImGui::StyleColorsDark();
-    ImGuiStyle& style = ImGui::GetStyle();
-    style.WindowRounding = 4;
-    style.WindowBorderSize = 0;
-    style.Colors[ImGuiCol_WindowBg] = ImVec4(0.05f, 0.06f, 0.08f, 0.72f);
-    style.ScaleAllSizes(static_cast<float>(scale));
+    io.ConfigWindowsMoveFromTitleBarOnly = true;
     if (!ImGui_ImplGlfw_InitForOpenGL(window.handle(), true)) {
         return Error{ErrorKind::internal, "the user interface cannot be attached to the window"};
     }
@@ -78,6 +72,35 @@ Result<Ui> Ui::create(const Window& window, double scale) {
     }
     *started = 3;
     return Ui(std::move(started));
+}
+
+void Ui::set_look(double scale, bool light) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.Fonts->Clear();
+    load_font(io, static_cast<float>(scale));
+    ImGui_ImplOpenGL3_DestroyFontsTexture();  // made again with the next frame
+    ImGuiStyle& style = ImGui::GetStyle();
+    style = ImGuiStyle();
+    style.WindowRounding = 4;
+    style.FrameRounding = 3;
+    style.WindowBorderSize = 0;
+    if (light) {
+        ImGui::StyleColorsLight(&style);
+        style.Colors[ImGuiCol_WindowBg] = ImVec4(0.96f, 0.96f, 0.97f, 0.88f);
+        style.Colors[ImGuiCol_TextDisabled] = ImVec4(0.36f, 0.37f, 0.40f, 1);
+    } else {
+        ImGui::StyleColorsDark(&style);
+        style.Colors[ImGuiCol_WindowBg] = ImVec4(0.05f, 0.06f, 0.08f, 0.76f);
+        style.Colors[ImGuiCol_TextDisabled] = ImVec4(0.68f, 0.70f, 0.74f, 1);
+    }
+    style.ScaleAllSizes(static_cast<float>(scale));
+}
+
+bool Ui::has_mouse() const {
+    return ImGui::GetIO().WantCaptureMouse;
+}
+bool Ui::has_keys() const {
+    return ImGui::GetIO().WantTextInput;
 }
 
 void Ui::begin() {

@@ -10,8 +10,17 @@ namespace relevo::viewer {
 /// Dear ImGui over a window: between begin and end, its functions draw. One at a time.
 class Ui {
   public:
+    static Result<Ui> create(const Window& window);
+
     /// \param scale  of letters and everything else; 1 is for screens of 96 dots an inch
-    static Result<Ui> create(const Window& window, double scale);
+    /// \param light  dark letters on light panels; else light ones on dark panels
+    /// \pre not between begin() and end()
+    void set_look(double scale, bool light);
+
+    /// Is the mouse over a panel, or was it pressed there? The ground then does not have it.
+    bool has_mouse() const;
+    /// Is something being typed in?
+    bool has_keys() const;
 
     void begin();
     /// Draws what was said since begin() into the window's frame.

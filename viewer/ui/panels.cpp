@@ -1,0 +1,217 @@
+#include "viewer/ui/panels.hpp"
+
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+namespace relevo::viewer {
+
+namespace {
+
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings |
+                                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoFocusOnAppearing;
+
+void hint(const char* text) {
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text);
+}
+
+/// A button that shows whether what it stands for is on.
+bool tool_button(const char* name, bool on, const char* what) {
+    if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+    const bool pressed = ImGui::Button(name);
+    if (on) ImGui::PopStyleColor();
+    hint(what);
+    ImGui::SameLine();
+    return pressed;
+}
+
+void drawing(ViewState& view) {
+    static constexpr std::array<std::pair<Layer, const char*>, 5> kLayers{{{Layer::hypsometric, "tints"},
+                                                                           {Layer::hillshade, "hillshade"},
+                                                                           {Layer::slope, "slope"},
+                                                                           {Layer::terrain, "terrain"},
+                                                                           {Layer::lod, "levels"}}};
+    for (std::size_t i = 0; i < kLayers.size(); ++i) {
+        if (i % 3 != 0) ImGui::SameLine();
+        if (ImGui::RadioButton(kLayers[i].second, view.layer == kLayers[i].first))
+            view.layer = kLayers[i].first;
+    }
+    ImGui::Checkbox("mesh", &view.wireframe);
+    ImGui::SameLine();
+    ImGui::Checkbox("morph", &view.morph);
+    auto tau = static_cast<float>(view.tau_px);
+    if (ImGui::SliderFloat("tau", &tau, 0.125f, 64, "%.3g px", ImGuiSliderFlags_Logarithmic))
+        view.tau_px = static_cast<double>(tau);
+    hint("No point of the picture is farther off than this.");
+    auto times = static_cast<float>(view.exaggeration);
+    if (ImGui::SliderFloat("heights x", &times, 0.25f, 16, "%.3g", ImGuiSliderFlags_Logarithmic))
+        view.exaggeration = static_cast<double>(times);
+    hint("Of the picture alone: what is measured stays true.");
+    bool ocean = view.ocean.kind != OceanKind::off;
+    if (ImGui::Checkbox("sea with waves", &ocean))
+        view.ocean.kind = ocean ? OceanKind::automatic : OceanKind::off;
+}
+
+}  // namespace
+
+void Panels::sun(ViewState& view) {
+    if (!ImGui::IsAnyItemActive()) sun_text_ = view.sun.text;
+    ImGui::SetNextItemWidth(-ImGui::CalcTextSize("sun  ").x);
+    if (ImGui::InputText("sun", &sun_text_, ImGuiInputTextFlags_EnterReturnsTrue)) {
+        const auto read = parse_sun(sun_text_);
+        sun_fault_ = read ? "" : read.error().message;
+        if (read) view.sun = *read;
+    }
+    hint("auto, AZIMUTH,ELEVATION or a time such as 2026-06-21T12:00:00Z; Enter");
+    if (!sun_fault_.empty()) ImGui::TextWrapped("%s", sun_fault_.c_str());
+}
+
+bool Panels::close() {
+    const bool was_open = go_to_shown_ || chooser_.shown() || keys_shown;
+    go_to_shown_ = keys_shown = false;
+    chooser_.hide();
+    return was_open;
+}
+
+float Panels::panel_width(const Desk& desk) const {
+    if (!desk.panel_shown()) return 0;
+    return std::min(20 * ImGui::GetFontSize(), 0.45f * ImGui::GetIO().DisplaySize.x);
+}
+
+void Panels::toolbar(Desk& desk, const HudContent& content, std::vector<Wish>& wishes) {
+    ImGui::SetNextWindowPos({0, 0});
+    ImGui::SetNextWindowSize({ImGui::GetIO().DisplaySize.x, 0});
+    ImGui::Begin("tools", nullptr, kFixed | ImGuiWindowFlags_AlwaysAutoResize);
+    const auto button = [&](const char* name, Command command, const char* what, bool on = false) {
+        if (tool_button(name, on, what)) wishes.push_back({command, {}});
+    };
+    button("Open", Command::open_file, "A scene or an elevation file (Ctrl O)");
+    button("Go to", Command::go_to, "Coordinates in any form, or a view (G)");
+    button("Whole", Command::whole_scene, "The whole scene (Home)");
+    ImGui::TextDisabled("|");
+    ImGui::SameLine();
+    for (const auto& [name, command, what, on] : content.tools) button(name, command, what, on);
+    ImGui::TextDisabled("|");
+    ImGui::SameLine();
+    button("Picture", Command::screenshot, "A screenshot (P); Ctrl P: four times as wide");
+    button("Panel", Command::show_panel, "Layers, results, places (Tab)", desk.panel_shown());
+    button("Keys", Command::show_keys, "All keys (F1)", keys_shown);
+    ImGui::NewLine();
+    ImGui::End();
+}
+
+void Panels::places(Desk& desk, const std::string& scene, KeyFrames& frames, std::vector<Wish>& wishes) {
+    std::vector<Bookmark>& marks = desk.settings().bookmarks;
+    ImGui::TextDisabled("Bookmarks");
+    if (ImGui::Button("Add this view (B)")) wishes.push_back({Command::add_bookmark, {}});
+    int gone = -1;
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+        if (marks[i].scene != scene) continue;
+        ImGui::PushID(static_cast<int>(i));
+        if (ImGui::Button("go")) wishes.push_back({Command::paste_view, marks[i].view});
+        ImGui::SameLine();
+        ImGui::SetNextItemWidth(-3 * ImGui::GetFontSize());
+        ImGui::InputText("##name", &marks[i].name);
+        if (ImGui::IsItemDeactivatedAfterEdit()) desk.save();
+        ImGui::SameLine();
+        if (ImGui::Button("x")) gone = static_cast<int>(i);
+        ImGui::PopID();
+    }
+    if (gone >= 0) {
+        marks.erase(marks.begin() + gone);
+        desk.save();
+    }
+    ImGui::Separator();
+    ImGui::TextDisabled("A path by key frames");
+    if (ImGui::Button("Add this view (K)")) wishes.push_back({Command::add_key_frame, {}});
+    ImGui::SameLine();
+    ImGui::Text("%d", static_cast<int>(frames.keys.size()));
+    auto seconds = static_cast<float>(frames.seconds_between);
+    if (ImGui::SliderFloat("s apart", &seconds, 0.5f, 30, "%.1f"))
+        frames.seconds_between = static_cast<double>(seconds);
+    if (ImGui::Button("Play (Shift K)")) wishes.push_back({Command::play_key_frames, {}});
+    ImGui::SameLine();
+    if (ImGui::Button("Clear")) frames.keys.clear();
+}
+
+void Panels::side_panel(Desk& desk, ViewState& view, const HudContent& content, const std::string& scene,
+                        KeyFrames& frames, std::vector<Wish>& wishes) {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    const float letter = ImGui::GetFontSize();
+    const float top = ImGui::GetFrameHeightWithSpacing() + letter;
+    const float width = panel_width(desk);
+    ImGui::SetNextWindowPos({size.x - width, top});
+    ImGui::SetNextWindowSize({width, size.y - top - 3 * letter});
+    ImGui::Begin("panel", nullptr, kFixed & ~ImGuiWindowFlags_NoScrollbar);
+    if (ImGui::BeginTabBar("tabs")) {
+        if (ImGui::BeginTabItem("Layers")) {
+            drawing(view);
+            sun(view);
+            ImGui::EndTabItem();
+        }
+        if (ImGui::BeginTabItem("Places")) {
+            places(desk, scene, frames, wishes);
+            ImGui::EndTabItem();
+        }
+        if (ImGui::BeginTabItem("Data")) {
+            for (const std::string& line : content.facts) ImGui::TextWrapped("%s", line.c_str());
+            ImGui::Separator();
+            if (ImGui::Button("Measure this picture's error (F8)"))
+                wishes.push_back({Command::measure_error, {}});
+            for (const std::string& line : content.error) ImGui::TextWrapped("%s", line.c_str());
+            ImGui::EndTabItem();
+        }
+        if (ImGui::BeginTabItem("Look")) {
+            bool light = desk.settings().light;
+            if (ImGui::Checkbox("light (F10)", &light)) wishes.push_back({Command::light_or_dark, {}});
+            auto scale = static_cast<float>(desk.settings().ui_scale);
+            ImGui::SliderFloat("letters", &scale, 0, 4, scale < 0.5f ? "the screen's" : "x %.2f");
+            desk.settings().ui_scale = scale < 0.5f ? 0 : static_cast<double>(scale);
+            if (ImGui::IsItemDeactivatedAfterEdit()) desk.look_again();
+            ImGui::EndTabItem();
+        }
+        ImGui::EndTabBar();
+    }
+    ImGui::End();
+}
+
+void Panels::go_to(std::vector<Wish>& wishes) {
+    if (!go_to_shown_) return;
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    const float letter = ImGui::GetFontSize();
+    ImGui::SetNextWindowPos({0.5f * size.x, 5 * letter}, ImGuiCond_Always, {0.5f, 0});
+    ImGui::Begin("Go to", &go_to_shown_,
+                 ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove);
+    ImGui::TextDisabled("37.58,-105.49   37d34'48\"N 105d29'24\"W   13N 456000 4159000   13SDB5600059000");
+    if (go_to_fresh_) ImGui::SetKeyboardFocusHere();
+    go_to_fresh_ = false;
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::InputText("##place", &go_to_text_, ImGuiInputTextFlags_EnterReturnsTrue)) {
+        go_to_fault_.clear();
+        go_to_shown_ = false;
+        wishes.push_back({Command::go_to, go_to_text_});
+    }
+    if (!go_to_fault_.empty()) {
+        ImGui::PushTextWrapPos(32 * letter);
+        ImGui::TextUnformatted(go_to_fault_.c_str());
+        ImGui::PopTextWrapPos();
+    }
+    ImGui::End();
+}
+
+std::vector<Wish> Panels::draw(Desk& desk, ViewState& view, const HudContent& content,
+                               const std::string& scene, KeyFrames& frames) {
+    std::vector<Wish> wishes;
+    toolbar(desk, content, wishes);
+    if (desk.panel_shown()) side_panel(desk, view, content, scene, frames, wishes);
+    go_to(wishes);
+    desk.draw_import();
+    if (const auto chosen = chooser_.draw()) desk.open(*chosen);
+    return wishes;
+}
+
+}  // namespace relevo::viewer
