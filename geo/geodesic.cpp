@@ -71,6 +71,7 @@ GeodesicArea geodesic_area(std::span<const LatLon> polygon) {
     GeodesicArea result;
     sides.Compute(false, true, result.perimeter_m,
                   result.area_m2);  // signed: within half of the earth's area
+    result.counter_clockwise = result.area_m2 >= 0;
     result.area_m2 = std::abs(result.area_m2);
     return result;
 }

@@ -50,6 +50,7 @@ class GeodesicPath {
 struct GeodesicArea {
     double area_m2 = 0;
     double perimeter_m = 0;
+    bool counter_clockwise = true;  ///< that part is to the left of the sides in their order
 };
 GeodesicArea geodesic_area(std::span<const LatLon> polygon);
 
