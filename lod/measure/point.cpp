@@ -3,20 +3,9 @@
 #include <algorithm>
 #include <cassert>
 
+#include "lod/measure/known_undulation.hpp"
+
 namespace relevo::lod {
-namespace {
-
-/// N of the scene's datum; nothing where that is unknown.
-std::optional<geo::Undulation> undulation(const Scene& scene, geo::LatLon place) {
-    const VerticalReference& vertical = scene.info().vertical;
-    if (vertical.datum == VerticalDatum::ellipsoid) return geo::Undulation{0};
-    const bool known = vertical.datum == VerticalDatum::egm96 || vertical.geoid_known;
-    if (!known || scene.geoid() == nullptr || !scene.geoid()->covers(place)) return {};
-    return scene.geoid()->undulation(place);
-}
-
-}  // namespace
-
 Result<PointMeasurement> measure_point(HeightSampler& sampler, geo::LatLon place) {
     const SceneInfo& info = sampler.scene().info();
     const geo::GridPosition position = info.frame.grid_position(place);
@@ -28,7 +17,7 @@ Result<PointMeasurement> measure_point(HeightSampler& sampler, geo::LatLon place
                             std::clamp(position.row, 0.0, static_cast<double>(info.frame.rows - 1))});
     point.resolution_m = std::max(spacing.column_m, spacing.row_m);
     if (!inside) return point;
-    point.N = undulation(sampler.scene(), place);
+    point.N = known_undulation(sampler.scene(), place);
 
     const auto H = sampler.height(position);
     if (!H) return H.error();
