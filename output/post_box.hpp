@@ -2,8 +2,7 @@
 
 #include "geo/frame.hpp"
 #include "geo/result.hpp"
-#include "lod/scene/block_grid.hpp"
-#include "lod/scene/scene.hpp"
+#include "lod/scene/read_box.hpp"
 
 namespace relevo::output {
 
@@ -22,8 +21,7 @@ struct Bounds {
 /// where a grid round the earth closes.
 Result<lod::BlockGrid::Box> posts_around(const geo::GridFrame& frame, const Bounds& bounds);
 
-/// Heights of a box of posts, void = NaN; reads the blocks that it touches and no others.
-Result<lod::Raster<float>> read_box(const lod::Scene& scene, const lod::BlockGrid::Box& box);
+using lod::read_box;
 
 /// A box of posts as a grid of its own.
 geo::GridFrame frame_of(const geo::GridFrame& frame, const lod::BlockGrid::Box& box);

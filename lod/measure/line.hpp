@@ -1,25 +1,11 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "geo/geodesic.hpp"
 #include "lod/measure/height_sampler.hpp"
 
 namespace relevo::lod {
-
-/// A place on a profile.
-struct ProfileSample {
-    double distance_m = 0;  ///< along the geodesic
-    geo::LatLon place;
-    std::optional<double> H_m;  ///< nothing for a void or outside
-};
-
-/// Heights along the geodesic between two places: at both ends, at every crossing of a row or a column of
-/// posts, and at the extremum inside a cell where there is one. Between neighbouring samples with a height
-/// the bilinear surface has no peak or dip. A gap (void or outside) has a sample without height at either
-/// end, at the distances of the samples with heights that it lies between.
-Result<std::vector<ProfileSample>> profile(HeightSampler& sampler, geo::LatLon from, geo::LatLon to);
 
 /// A geodesic line and what it does over the ground. Ground figures are absent where the line leaves the data
 /// or crosses a void.

@@ -2,21 +2,12 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+
+#include "geo/geodesic.hpp"
+#include "lod/measure/known_undulation.hpp"
 
 namespace relevo::lod {
-namespace {
-
-/// N of the scene's datum; nothing where that is unknown.
-std::optional<geo::Undulation> undulation(const Scene& scene, geo::LatLon place) {
-    const VerticalReference& vertical = scene.info().vertical;
-    if (vertical.datum == VerticalDatum::ellipsoid) return geo::Undulation{0};
-    const bool known = vertical.datum == VerticalDatum::egm96 || vertical.geoid_known;
-    if (!known || scene.geoid() == nullptr || !scene.geoid()->covers(place)) return {};
-    return scene.geoid()->undulation(place);
-}
-
-}  // namespace
-
 Result<PointMeasurement> measure_point(HeightSampler& sampler, geo::LatLon place) {
     const SceneInfo& info = sampler.scene().info();
     const geo::GridPosition position = info.frame.grid_position(place);
@@ -28,7 +19,16 @@ Result<PointMeasurement> measure_point(HeightSampler& sampler, geo::LatLon place
                             std::clamp(position.row, 0.0, static_cast<double>(info.frame.rows - 1))});
     point.resolution_m = std::max(spacing.column_m, spacing.row_m);
     if (!inside) return point;
-    point.N = undulation(sampler.scene(), place);
+    point.N = known_undulation(sampler.scene(), place);
+    PointMeasurement::Post post;
+    post.column = static_cast<int>(std::clamp(std::round(position.column), 0.0, info.frame.columns - 1.0));
+    post.row = static_cast<int>(std::clamp(std::round(position.row), 0.0, info.frame.rows - 1.0));
+    post.place = info.frame.lat_lon({post.column + 0.0, post.row + 0.0});
+    post.distance_m = geo::geodesic(place, post.place).length_m;
+    const auto native = sampler.post(post.column, post.row);
+    if (!native) return native.error();
+    post.H_m = *native;
+    point.nearest_post = post;
 
     const auto H = sampler.height(position);
     if (!H) return H.error();
@@ -36,6 +36,10 @@ Result<PointMeasurement> measure_point(HeightSampler& sampler, geo::LatLon place
     if (!*H) return point;
     point.H = geo::OrthometricHeight{**H};
     if (point.N) point.h = *point.H + *point.N;
+
+    const auto slope = surface_slope(sampler, place);
+    if (!slope) return slope.error();
+    point.slope = *slope;
 
     const auto marks = sampler.marks(position);
     if (!marks) return marks.error();

@@ -5,6 +5,7 @@
 
 #include "geo/position.hpp"
 #include "lod/measure/height_sampler.hpp"
+#include "lod/measure/slope.hpp"
 
 namespace relevo::lod {
 
@@ -23,6 +24,17 @@ struct PointMeasurement {
     bool filled = false;        ///< H is made of a post that was interpolated over a void
     bool modelled = false;      ///< or of one of a sea bed that was made up
     std::optional<int> source;  ///< of the nearest post, in SceneInfo::sources; none where not recorded
+
+    /// The post nearest to the place in the grid: what the data itself says there.
+    struct Post {
+        int column = 0;
+        int row = 0;
+        geo::LatLon place;
+        std::optional<double> H_m;  ///< nothing for a void
+        double distance_m = 0;      ///< from the place
+    };
+    std::optional<Post> nearest_post;   ///< nothing outside
+    std::optional<SurfaceSlope> slope;  ///< nothing for a void or outside
 };
 
 /// Reads a place from the full data: bilinear between posts, the post itself within 1e-6 of one.

@@ -60,9 +60,26 @@ std::string text(geo::LatLon place) {
 TEST_F(Measure, PointHasTheContractsKeys) {
     const auto place = frame.lat_lon({7, 12});
     const auto json = measure(scene(), "point " + text(place));
-    EXPECT_EQ(keys_of(json), (std::vector<std::string>{"H_m", "N_m", "class", "filled", "h_m", "lat", "lon",
-                                                       "mgrs", "modelled", "resampling_rms_m", "resolution_m",
-                                                       "source_crs", "utm", "vertical_datum"}));
+    EXPECT_EQ(keys_of(json), (std::vector<std::string>{"H_m",
+                                                       "N_m",
+                                                       "aspect_deg",
+                                                       "class",
+                                                       "dms",
+                                                       "filled",
+                                                       "h_m",
+                                                       "height_accuracy_m",
+                                                       "lat",
+                                                       "lon",
+                                                       "mgrs",
+                                                       "modelled",
+                                                       "native_sample",
+                                                       "position_accuracy_m",
+                                                       "resampling_rms_m",
+                                                       "resolution_m",
+                                                       "slope_deg",
+                                                       "source_crs",
+                                                       "utm",
+                                                       "vertical_datum"}));
     EXPECT_EQ(json["H_m"].get<double>(), static_cast<double>(heights.at(7, 12)));
     EXPECT_EQ(json["h_m"].get<double>(), json["H_m"].get<double>() + json["N_m"].get<double>());
     EXPECT_NEAR(json["N_m"].get<double>(), -15, 5.001);  // of the scene's own geoid
@@ -133,6 +150,65 @@ TEST_F(Measure, TextNamesTheDatumOfEveryHeight) {
     EXPECT_EQ(run.status, 0) << run.err;
     EXPECT_NE(run.out.find("m above EGM96 (assumed"), std::string::npos) << run.out;
     EXPECT_NE(run.out.find("m above the WGS 84 ellipsoid"), std::string::npos) << run.out;
+}
+
+TEST_F(Measure, EveryKindOfMeasurementIsOneJsonObject) {
+    const auto at = [&](double column, double row) { return text(frame.lat_lon({column, row})); };
+    const auto path = measure(scene(), "path " + at(3, 12) + " " + at(20, 14) + " " + at(30, 20));
+    EXPECT_EQ(path["legs"].size(), 2u);
+    EXPECT_EQ(path["turns_deg"].size(), 1u);
+    EXPECT_GT(path["surface_m"].get<double>(), path["length_m"].get<double>());
+    const auto profile = measure(scene(), "profile " + at(3, 12) + " " + at(20, 14) + " " + at(30, 20));
+    EXPECT_NEAR(profile["length_m"].get<double>(), path["length_m"].get<double>(), 1e-9);
+    EXPECT_GT(profile["samples"].size(), 30u);
+    EXPECT_NEAR(profile["mean_slope"].get<double>() * profile["length_m"].get<double>(),
+                path["climb_m"].get<double>() + path["descent_m"].get<double>(), 1e-6);
+    const auto area =
+        measure(scene(), "area " + at(3, 12) + " " + at(30, 14) + " " + at(12, 25) + " --plane 5");
+    EXPECT_EQ(area["plane_H_m"], 5);
+    EXPECT_NEAR(area["measured_area_m2"].get<double>() / area["geodesic_area_m2"].get<double>(), 1, 1e-6);
+    const auto sight = measure(scene(), "sight " + at(3, 12) + " " + at(30, 14) + " --eye-height 5000");
+    EXPECT_EQ(sight["visible"], true);
+    EXPECT_EQ(sight["refraction"], 0.13);
+    const auto tif = (folder / "seen.tif").string();
+    const auto shed =
+        measure(scene(), "viewshed " + at(20, 15) + " --radius 1000 --eye-height 1000 -o '" + tif + "'");
+    EXPECT_GT(shed["visible_posts"].get<int>(), 100);
+    EXPECT_EQ(
+        relevo("measure '" + scene().string() + "' viewshed " + at(20, 15) + " --radius 9 -o '" + tif + "'")
+            .status,
+        2);  // it is there
+    const auto info = ask("gdalinfo '" + tif + "'", {});
+    if (info.empty()) return;  // gdal-bin is not installed
+    std::string all;
+    for (const std::string& line : info) all += line;
+    EXPECT_NE(all.find("NoData Value=255"), std::string::npos);
+    EXPECT_NE(all.find("AREA_OR_POINT=Point"), std::string::npos);
+    EXPECT_NE(all.find("4326"), std::string::npos);
+}
+
+TEST_F(Measure, FilesAreMeasuredToTheLastDigit) {
+    const auto at = [&](double column, double row) { return text(frame.lat_lon({column, row})); };
+    const std::string places = at(3, 12) + " " + at(30, 14) + " " + at(12, 25);
+    const auto area = measure(scene(), "area " + places);
+    for (const char* name : {"a.geojson", "a.csv", "a.kml"}) {
+        const auto file = "'" + (folder / name).string() + "'";
+        EXPECT_EQ(measure(scene(), "area " + places + " --name Tri --save " + file), area);
+        auto again = measure(scene(), "area --from " + file)["measurements"];
+        ASSERT_EQ(again.size(), 1u);
+        EXPECT_EQ(again[0]["name"], "Tri");
+        again[0].erase("name");
+        EXPECT_EQ(again[0], area);
+        EXPECT_EQ(relevo("measure '" + scene().string() + "' point --from " + file).status, 3);
+        EXPECT_EQ(relevo("measure '" + scene().string() + "' area " + places + " --save " + file).status, 2);
+    }
+    const auto imperial = relevo("measure '" + scene().string() + "' area " + places + " --units imperial");
+    EXPECT_NE(imperial.out.find(" acres on"), std::string::npos) << imperial.out;
+    EXPECT_NE(imperial.out.find(" ft at"), std::string::npos) << imperial.out;
+    EXPECT_EQ(relevo("measure '" + scene().string() + "' area " + at(3, 3) + " " + at(9, 9) + " " + at(9, 3) +
+                     " " + at(3, 9))
+                  .status,
+              3);
 }
 
 TEST_F(Measure, ExitStatuses) {

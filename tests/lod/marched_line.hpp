@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "lod/measure/line.hpp"
+#include "lod/measure/profile.hpp"
 #include "tests/lod/measured_scene.hpp"
 
 namespace relevo::test {

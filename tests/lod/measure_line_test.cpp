@@ -4,6 +4,7 @@
 
 #include "lod/measure/grid_path.hpp"
 #include "lod/measure/line.hpp"
+#include "lod/measure/profile.hpp"
 #include "tests/lod/marched_line.hpp"
 
 namespace relevo::lod {
