@@ -34,6 +34,21 @@ Sight sight_of(const lod::View& view, const PicturePart& part, Layer layer) {
     return {view, part, layer == Layer::plain ? kVertexPixels : 1};
 }
 
+bool has_ramp(Layer layer) {
+    return layer == Layer::hypsometric || layer == Layer::slope || layer == Layer::aspect;
+}
+
+bool has_overlays(const DrawSettings& settings) {
+    return settings.layer != Layer::plain && !settings.overlays.empty();
+}
+
+std::vector<Overlay::Kind> kinds(const DrawSettings& settings) {
+    std::vector<Overlay::Kind> made;
+    if (!has_overlays(settings)) return made;
+    for (const Overlay& overlay : settings.overlays) made.push_back(overlay.kind);
+    return made;
+}
+
 /// Has shaders/light.glsl dusk or night there?
 bool is_low(const SunSetting& sun, const geo::Geodetic& eye) {
     return std::sin(sun_at(sun, {eye.lat, eye.lon}).elevation.radians()) < 0.22;
@@ -51,7 +66,6 @@ Result<Renderer> Renderer::create(const lod::Terrain& terrain, const GroundData&
     if (!ground) return ground.error();
     Renderer made(terrain, *std::move(ground), data.heights);
     made.ground_map_ = data.map;
-    if (auto done = made.make_ramps(); !done) return done.error();
 
     made.frame_ = GlBuffer::create();
     glNamedBufferStorage(made.frame_.name(), sizeof(FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
@@ -64,25 +78,24 @@ Result<Renderer> Renderer::create(const lod::Terrain& terrain, const GroundData&
     return made;
 }
 
-Result<void> Renderer::make_ramps() {
-    const std::array<Layer, 2> layers{Layer::hypsometric, Layer::slope};
-    for (std::size_t i = 0; i < layers.size(); ++i) {
-        const GroundFacts& facts = ground_->facts();
-        const HeightSpan span{facts.lowest_m, facts.highest_m, facts.lowest_land_m};
-        const auto colours = colour_ramp(layers[i], span);
-        const auto sea = sea_ramp(span);
-        ramps_[i] = GlTexture(create_gl_texture(GL_TEXTURE_2D));
-        const GlName name = ramps_[i].name();
-        const auto width = static_cast<GLsizei>(colours.size());
-        glTextureStorage2D(name, 1, GL_RGBA8, width, 2);
-        glTextureSubImage2D(name, 0, 0, 0, width, 1, GL_RGBA, GL_UNSIGNED_BYTE, colours.data());
-        glTextureSubImage2D(name, 0, 0, 1, width, 1, GL_RGBA, GL_UNSIGNED_BYTE, sea.data());
-        glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-        glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-        glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-        glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    }
-    return gl_check("making the colours");
+GlName Renderer::ramp(Layer layer) {
+    GlTexture& ramp = ramps_[layer];
+    if (ramp) return ramp.name();
+    const GroundFacts& facts = ground_->facts();
+    const HeightSpan span{facts.lowest_m, facts.highest_m, facts.lowest_land_m};
+    const auto colours = colour_ramp(layer, span);
+    const auto sea = sea_ramp(span);
+    ramp = GlTexture(create_gl_texture(GL_TEXTURE_2D));
+    const GlName name = ramp.name();
+    const auto width = static_cast<GLsizei>(colours.size());
+    glTextureStorage2D(name, 1, GL_RGBA8, width, 2);
+    glTextureSubImage2D(name, 0, 0, 0, width, 1, GL_RGBA, GL_UNSIGNED_BYTE, colours.data());
+    glTextureSubImage2D(name, 0, 0, 1, width, 1, GL_RGBA, GL_UNSIGNED_BYTE, sea.data());
+    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    return name;
 }
 
 void Renderer::make_vertex_array() {
@@ -132,7 +145,11 @@ Result<GlName> Renderer::terrain_program(const Variant& variant) {
     if (const auto* polar = terrain_->positions().polar())
         defines += fmt::format("#define POLE {:.1f}\n", polar->plane().pole);
     const bool covered = variant.layer == Layer::terrain;
-    if (variant.ocean || covered) defines += shore_defines(ground_->facts());
+    defines += height_defines(ground_->facts());
+    if (!variant.overlays.empty()) {
+        defines += overlay_defines(variant.overlays);
+        if (ground_->facts().has_sea && !variant.ocean) defines += "#define DRY_LINES\n";
+    }
     if (variant.ocean) {
         defines += "#define OCEAN\n";
     } else if (ground_->facts().has_sea && (variant.layer == Layer::hypsometric || covered)) {
@@ -144,11 +161,13 @@ Result<GlName> Renderer::terrain_program(const Variant& variant) {
         if (ground_map_) defines += "#define GROUND_MAP\n";
         common += std::string(shader_text("light.glsl")) + std::string(shader_text("cover_block.glsl"));
     }
+    if (!variant.overlays.empty()) common += shader_text("overlay_block.glsl");
     const bool plain = variant.layer == Layer::plain;
     if (plain) defines += "#define PLAIN\n";
     const std::string ground(shader_text("ground.glsl"));
     const std::string vertex = (plain ? ground : "") + std::string(shader_text("terrain.vert"));
     const std::string fragment = ground +
+                                 std::string(variant.overlays.empty() ? "" : shader_text("overlays.glsl")) +
                                  std::string(covered ? shader_text("cover.glsl") : std::string_view{}) +
                                  std::string(variant.ocean ? shader_text("shore.glsl") : std::string_view{}) +
                                  std::string(shader_text(plain ? "plain.frag" : "terrain.frag"));
@@ -182,7 +201,8 @@ Renderer::Variant Renderer::variant(const DrawSettings& settings) const {
             .sun_fixed = settings.sun.kind == SunSetting::Kind::time,
             .sky = !settings.background,
             .ocean = settings.ocean.kind != OceanKind::off && ground_->facts().has_sea,
-            .probe = false};
+            .probe = false,
+            .overlays = kinds(settings)};
 }
 
 std::optional<bool> Renderer::is_below_ground(const geo::Geodetic& eye, double exaggeration) const {
@@ -211,18 +231,23 @@ void Renderer::prepare(const lod::View& view, const DrawSettings& settings, cons
         if (!cover_) cover_.emplace(ground_map_.get());
         cover_->update(terrain_->frame(), {view.camera().eye.lat, view.camera().eye.lon});
     }
+    if (has_overlays(settings)) {
+        if (!overlays_) overlays_.emplace(*terrain_, ground_->facts());
+        overlays_->update(view, settings);
+    }
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);  // the ground is also seen from below
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);
 }
 
-void Renderer::draw_terrain(GlName program, Layer layer) {
+void Renderer::draw_terrain(GlName program, const DrawSettings& settings) {
     glUseProgram(program);
     glBindVertexArray(vertex_array_.name());
     ground_->bind();
-    if (layer == Layer::terrain) cover_->bind();
-    glBindTextureUnit(kRampUnit, ramps_[layer == Layer::slope ? 1 : 0].name());
+    if (settings.layer == Layer::terrain) cover_->bind();
+    if (has_ramp(settings.layer)) glBindTextureUnit(kRampUnit, ramp(settings.layer));
+    if (has_overlays(settings)) overlays_->bind();
     glEnable(GL_CLIP_DISTANCE0);
     glEnable(GL_CLIP_DISTANCE1);
     glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
@@ -241,6 +266,7 @@ Result<DrawFigures> Renderer::probe(const lod::View& view, const DrawSettings& s
     Variant probing = variant(settings);
     probing.wireframe = false;  // covers what the plain ground covers
     probing.probe = true;
+    probing.overlays.clear();
     const auto program = terrain_program(probing);
     if (!program) return program.error();
     prepare(view, settings, {0, 0, view.camera().width, view.camera().height});
@@ -249,7 +275,7 @@ Result<DrawFigures> Renderer::probe(const lod::View& view, const DrawSettings& s
     figures.ocean = *ocean;
     figures.draw_calls = ocean->draw_calls;
     if (index_count_ > 0) {
-        draw_terrain(*program, settings.layer);
+        draw_terrain(*program, settings);
         ++figures.draw_calls;
     }
     if (const auto filled = fill(view, settings); !filled) return filled.error();
@@ -289,7 +315,7 @@ Result<DrawFigures> Renderer::draw(const lod::View& view, const DrawSettings& se
     }
     figures.draw_calls += ocean->draw_calls;
     if (index_count_ > 0) {
-        draw_terrain(*program, settings.layer);
+        draw_terrain(*program, settings);
         ++figures.draw_calls;
     }
     const auto filled = fill(view, settings);

@@ -16,6 +16,7 @@
 #include "viewer/ground/ground_textures.hpp"
 #include "viewer/layer.hpp"
 #include "viewer/ocean/ocean.hpp"
+#include "viewer/overlay_drawing.hpp"
 #include "viewer/render_target.hpp"
 
 namespace relevo::viewer {
@@ -71,6 +72,14 @@ class Renderer {
     /// 0, 0, 1) where there is ground, Ocean::Look::probe where there is sea, no sky.
     Result<DrawFigures> probe(const lod::View& view, const DrawSettings& settings);
 
+    /// Metres between the contours of the last picture; nothing where it had none.
+    std::optional<double> contour_interval_m() const {
+        return overlays_ ? overlays_->contour_interval_m() : std::nullopt;
+    }
+
+    /// The lines of the last picture's graticule, likewise.
+    std::optional<Graticule> graticule() const { return overlays_ ? overlays_->graticule() : std::nullopt; }
+
     Ocean& ocean() { return *ocean_; }
     const Ocean& ocean() const { return *ocean_; }
 
@@ -81,15 +90,16 @@ class Renderer {
     struct Variant {
         Layer layer;
         bool wireframe, sun_fixed, sky, ocean, probe;
+        std::vector<Overlay::Kind> overlays;
         friend auto operator<=>(const Variant&, const Variant&) = default;
     };
     Variant variant(const DrawSettings& settings) const;
     /// Sets what all of a part of a picture needs, and has its ground's texels come.
     void prepare(const lod::View& view, const DrawSettings& settings, const PicturePart& part);
-    void draw_terrain(GlName program, Layer layer);
+    void draw_terrain(GlName program, const DrawSettings& settings);
     Result<GlName> terrain_program(const Variant& variant);
     Result<GlName> sky_program(bool low_sun);
-    Result<void> make_ramps();
+    GlName ramp(Layer layer);
     /// Nothing where no ground is under or over the eye.
     std::optional<bool> is_below_ground(const geo::Geodetic& eye, double exaggeration) const;
     /// The ocean's, where the eye is above the ground.
@@ -99,7 +109,8 @@ class Renderer {
     const lod::Terrain* terrain_;
     std::unique_ptr<GroundTextures> ground_;  // the ocean keeps a pointer to it
     std::unique_ptr<Ocean> ocean_;
-    std::array<GlTexture, 2> ramps_;  // hypsometric, slope
+    std::map<Layer, GlTexture> ramps_;        // of layers that have been drawn
+    std::optional<OverlayDrawing> overlays_;  // made with the first of them
     std::map<Variant, GlProgram> terrain_programs_;
     /// By day, and with a low sun, which is made when there is one.
     std::array<GlProgram, 2> sky_programs_;

@@ -8,6 +8,7 @@
 #include "lod/terrain.hpp"
 #include "viewer/layer.hpp"
 #include "viewer/ocean/ocean_settings.hpp"
+#include "viewer/overlay.hpp"
 #include "viewer/sun_setting.hpp"
 
 namespace relevo::viewer {
@@ -45,6 +46,7 @@ struct ViewState {
     bool wireframe = false;
     SunSetting sun;
     OceanSettings ocean;  ///< its error is tau_px
+    Overlays overlays;
 };
 
 /// Fails with ErrorKind::usage where a value is out of its range.
@@ -52,7 +54,8 @@ Result<void> check(const ViewState& view);
 
 /// The whole view as one string without spaces or characters that a shell knows:
 /// "37.58,-105.49,4500/heading=90/pitch=-10/roll=0/fov=60/tau=1/lod=soar/metric=bounded/...". Parsing it
-/// gives the same view, to the last bit. A map of waves is not in it.
+/// gives the same view, to the last bit. A map of waves is not in it, nor are the files of imagery and
+/// vectors: overlays tell the number of theirs.
 std::string to_string(const ViewState& view);
 
 /// Reads such a string. What it leaves out keeps the value it has in `base`; only the place must be there.

@@ -23,8 +23,8 @@ struct GroundFacts {
     bool sea_is_level = false;  ///< the data has no bed under its sea, but heights of 0
 };
 
-/// Definitions of shaders/shore.glsl.
-std::string shore_defines(const GroundFacts& facts);
+/// Definitions for shaders that read heights from the pages.
+std::string height_defines(const GroundFacts& facts);
 
 /// Of a scene, from what its scene.json says. Of its land next to sea it says the lowest only where that is
 /// below 0: else 0 is taken.
