@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -25,6 +26,7 @@ struct PictureSize {
 struct ViewFlags {
     std::optional<std::string> at, eye, size, method, metric, morph, layer, sun, ocean, wind, waves,
         ground_map, contours, graticule;
+    std::vector<std::string> imagery, vectors;
     std::optional<double> heading, pitch, roll, fov, tau, exaggeration, time;
     bool wireframe = false;
     std::optional<int> samples;

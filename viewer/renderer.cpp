@@ -42,13 +42,6 @@ bool has_overlays(const DrawSettings& settings) {
     return settings.layer != Layer::plain && !settings.overlays.empty();
 }
 
-std::vector<Overlay::Kind> kinds(const DrawSettings& settings) {
-    std::vector<Overlay::Kind> made;
-    if (!has_overlays(settings)) return made;
-    for (const Overlay& overlay : settings.overlays) made.push_back(overlay.kind);
-    return made;
-}
-
 /// Has shaders/light.glsl dusk or night there?
 bool is_low(const SunSetting& sun, const geo::Geodetic& eye) {
     return std::sin(sun_at(sun, {eye.lat, eye.lon}).elevation.radians()) < 0.22;
@@ -56,16 +49,16 @@ bool is_low(const SunSetting& sun, const geo::Geodetic& eye) {
 
 }  // namespace
 
-Renderer::Renderer(const lod::Terrain& terrain, GroundTextures ground, const EyeHeight* heights)
+Renderer::Renderer(const lod::Terrain& terrain, GroundTextures ground, const GroundData& data)
     : terrain_(&terrain),
       ground_(std::make_unique<GroundTextures>(std::move(ground))),
-      ocean_(std::make_unique<Ocean>(terrain, *ground_, heights)) {}
+      ocean_(std::make_unique<Ocean>(terrain, *ground_, data.heights)),
+      data_(data) {}
 
 Result<Renderer> Renderer::create(const lod::Terrain& terrain, const GroundData& data) {
     auto ground = GroundTextures::create(terrain, data);
     if (!ground) return ground.error();
-    Renderer made(terrain, *std::move(ground), data.heights);
-    made.ground_map_ = data.map;
+    Renderer made(terrain, *std::move(ground), data);
 
     made.frame_ = GlBuffer::create();
     glNamedBufferStorage(made.frame_.name(), sizeof(FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
@@ -147,7 +140,7 @@ Result<GlName> Renderer::terrain_program(const Variant& variant) {
     const bool covered = variant.layer == Layer::terrain;
     defines += height_defines(ground_->facts());
     if (!variant.overlays.empty()) {
-        defines += overlay_defines(variant.overlays);
+        defines += overlay_defines(variant.overlays, data_.drapes.size());
         if (ground_->facts().has_sea && !variant.ocean) defines += "#define DRY_LINES\n";
     }
     if (variant.ocean) {
@@ -158,7 +151,7 @@ Result<GlName> Renderer::terrain_program(const Variant& variant) {
     std::string common(shader_text("frame.glsl"));
     if (covered) {
         defines += ground_->facts().has_sea ? "#define COVER\n#define SHORE\n" : "#define COVER\n";
-        if (ground_map_) defines += "#define GROUND_MAP\n";
+        if (data_.map) defines += "#define GROUND_MAP\n";
         common += std::string(shader_text("light.glsl")) + std::string(shader_text("cover_block.glsl"));
     }
     if (!variant.overlays.empty()) common += shader_text("overlay_block.glsl");
@@ -168,6 +161,9 @@ Result<GlName> Renderer::terrain_program(const Variant& variant) {
     const std::string vertex = (plain ? ground : "") + std::string(shader_text("terrain.vert"));
     const std::string fragment = ground +
                                  std::string(variant.overlays.empty() ? "" : shader_text("overlays.glsl")) +
+                                 std::string(variant.overlays.empty() ? "" : "#ifdef DRAPES\n") +
+                                 std::string(variant.overlays.empty() ? "" : shader_text("drape.glsl")) +
+                                 std::string(variant.overlays.empty() ? "" : "#endif\n") +
                                  std::string(covered ? shader_text("cover.glsl") : std::string_view{}) +
                                  std::string(variant.ocean ? shader_text("shore.glsl") : std::string_view{}) +
                                  std::string(shader_text(plain ? "plain.frag" : "terrain.frag"));
@@ -188,8 +184,26 @@ void Renderer::upload(const lod::Mesh& mesh) {
     index_count_ = static_cast<int>(mesh.indices.size());
 }
 
+Result<void> Renderer::provide_overlays(const DrawSettings& settings) {
+    if (!has_overlays(settings)) return {};
+    if (!overlays_) overlays_.emplace(*terrain_, data_);
+    return overlays_->provide(settings);
+}
+
+bool Renderer::ground_fits(const lod::View& view, const DrawSettings& settings, const PicturePart& part) {
+    // What cannot be made is told where it is drawn.
+    const bool drapes = provide_overlays(settings) && has_overlays(settings);
+    const Sight sight(view, part);
+    return ground_->fits(sight, settings.exaggeration) && (!drapes || overlays_->fits(settings, sight));
+}
+
 Result<void> Renderer::complete(const lod::View& view, const DrawSettings& settings,
                                 const PicturePart& part) {
+    if (auto done = provide_overlays(settings); !done) return done;
+    if (has_overlays(settings)) {
+        if (auto done = overlays_->complete(settings, sight_of(view, part, settings.layer)); !done)
+            return done;
+    }
     if (auto done = ground_->complete(sight_of(view, part, settings.layer), settings.exaggeration); !done)
         return done;
     return gl_check("loading the terrain's normals");
@@ -202,7 +216,7 @@ Renderer::Variant Renderer::variant(const DrawSettings& settings) const {
             .sky = !settings.background,
             .ocean = settings.ocean.kind != OceanKind::off && ground_->facts().has_sea,
             .probe = false,
-            .overlays = kinds(settings)};
+            .overlays = drawn_overlays(settings, data_.drapes.size())};
 }
 
 std::optional<bool> Renderer::is_below_ground(const geo::Geodetic& eye, double exaggeration) const {
@@ -228,12 +242,11 @@ void Renderer::prepare(const lod::View& view, const DrawSettings& settings, cons
     glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, frame_.name());
     ground_->update(sight_of(view, part, settings.layer), settings.exaggeration);
     if (settings.layer == Layer::terrain) {
-        if (!cover_) cover_.emplace(ground_map_.get());
+        if (!cover_) cover_.emplace(data_.map.get());
         cover_->update(terrain_->frame(), {view.camera().eye.lat, view.camera().eye.lon});
     }
     if (has_overlays(settings)) {
-        if (!overlays_) overlays_.emplace(*terrain_, ground_->facts());
-        overlays_->update(view, settings);
+        overlays_->update(view, settings, sight_of(view, part, settings.layer));
     }
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);  // the ground is also seen from below
@@ -263,6 +276,7 @@ Result<int> Renderer::fill(const lod::View& view, const DrawSettings& settings) 
 
 Result<DrawFigures> Renderer::probe(const lod::View& view, const DrawSettings& settings) {
     DrawFigures figures;
+    if (auto done = provide_overlays(settings); !done) return done.error();
     Variant probing = variant(settings);
     probing.wireframe = false;  // covers what the plain ground covers
     probing.probe = true;
@@ -288,6 +302,7 @@ Result<DrawFigures> Renderer::probe(const lod::View& view, const DrawSettings& s
 Result<DrawFigures> Renderer::draw(const lod::View& view, const DrawSettings& settings,
                                    const RenderTarget& target, Region region, bool measured) {
     DrawFigures figures;
+    if (auto done = provide_overlays(settings); !done) return done.error();
     const bool sky = !settings.background;
     const auto program = terrain_program(variant(settings));
     if (!program) return program.error();

@@ -51,12 +51,10 @@ class Renderer {
 
     /// Pieces of the ground that the last picture wanted and that have not come yet: it was drawn with
     /// coarser ones in their places.
-    std::size_t pending() const { return ground_->pending(); }
+    std::size_t pending() const { return ground_->pending() + (overlays_ ? overlays_->pending() : 0); }
 
     /// Is there room for all of the ground's texels that a picture's part wants? Else it is drawn coarser.
-    bool ground_fits(const lod::View& view, const DrawSettings& settings, const PicturePart& part) const {
-        return ground_->fits(Sight(view, part), settings.exaggeration);
-    }
+    bool ground_fits(const lod::View& view, const DrawSettings& settings, const PicturePart& part);
 
     /// Draws the uploaded mesh, which must have been made for this view, and sky. The ground's texels that
     /// are not there yet come in the background.
@@ -80,20 +78,27 @@ class Renderer {
     /// The lines of the last picture's graticule, likewise.
     std::optional<Graticule> graticule() const { return overlays_ ? overlays_->graticule() : std::nullopt; }
 
+    /// Of a file that overlays drape: what it has made and loaded so far. All 0 while it is off.
+    OverlayDrawing::DrapeFigures drape_figures(int file) const {
+        return overlays_ ? overlays_->figures(file) : OverlayDrawing::DrapeFigures{};
+    }
+
     Ocean& ocean() { return *ocean_; }
     const Ocean& ocean() const { return *ocean_; }
 
   private:
-    Renderer(const lod::Terrain& terrain, GroundTextures ground, const EyeHeight* heights);
+    Renderer(const lod::Terrain& terrain, GroundTextures ground, const GroundData& data);
 
     /// What makes one terrain program differ from another.
     struct Variant {
         Layer layer;
         bool wireframe, sun_fixed, sky, ocean, probe;
-        std::vector<Overlay::Kind> overlays;
+        std::vector<DrawnOverlay> overlays;
         friend auto operator<=>(const Variant&, const Variant&) = default;
     };
     Variant variant(const DrawSettings& settings) const;
+    /// Makes what overlays need that were not drawn before.
+    Result<void> provide_overlays(const DrawSettings& settings);
     /// Sets what all of a part of a picture needs, and has its ground's texels come.
     void prepare(const lod::View& view, const DrawSettings& settings, const PicturePart& part);
     void draw_terrain(GlName program, const DrawSettings& settings);
@@ -114,8 +119,8 @@ class Renderer {
     std::map<Variant, GlProgram> terrain_programs_;
     /// By day, and with a low sun, which is made when there is one.
     std::array<GlProgram, 2> sky_programs_;
-    std::shared_ptr<const GroundMap> ground_map_;  // null: there is none
-    std::optional<GroundCover> cover_;             // made with the layer's first picture
+    GroundData data_;
+    std::optional<GroundCover> cover_;  // made with the layer's first picture
     GlBuffer frame_;
     GlBuffer vertices_;
     GlBuffer indices_;

@@ -15,18 +15,19 @@ float lines_at(float value, float slope, float width) {
     return (1.0 - smoothstep(reach - 0.5, reach + 0.5, pixels)) * smoothstep(2.0, 5.0, apart);
 }
 
-// Dark on light ground and light on dark.
-vec3 ink(vec3 ground, vec3 dark, vec3 light) {
-    return mix(light, dark, smoothstep(0.26, 0.36, dot(ground, vec3(0.2126, 0.7152, 0.0722))));
-}
+float brightness(vec3 colour) { return dot(colour, vec3(0.2126, 0.7152, 0.0722)); }
+
+// Dark on light ground and light on dark. `bright` is that of what lies below all lines, or they would change where they
+// cross.
+vec3 ink(float bright, vec3 dark, vec3 light) { return mix(light, dark, smoothstep(0.26, 0.36, bright)); }
 
 #ifdef CONTOURS
 // Every fifth line is an index line: heavier, and there for longer where lines are close together.
-vec3 with_contours(vec3 ground, vec4 drawn, float height, float height_slope, float dry) {
+vec3 with_contours(vec3 ground, float bright, vec4 drawn, float height, float height_slope, float dry) {
     float value = height * drawn.y + drawn.z;
     float slope = height_slope * drawn.y;
     float share = max(0.8 * lines_at(value, slope, 1.2), lines_at(0.2 * value, 0.2 * slope, 2.3));
-    return mix(ground, ink(ground, vec3(0.30, 0.17, 0.06), vec3(0.93, 0.80, 0.62)), share * dry * drawn.x);
+    return mix(ground, ink(bright, vec3(0.30, 0.17, 0.06), vec3(0.93, 0.80, 0.62)), share * dry * drawn.x);
 }
 #endif
 
@@ -53,14 +54,13 @@ vec2 polar_graticule_at(vec2 plane, vec2 lines) {
 }
 #endif
 
-// Across the antimeridian longitudes jump by a whole number of lines.
+// Across the antimeridian longitudes jump by a whole number of lines; their fraction jumps between two lines alone.
 vec2 graticule_slopes(vec2 value) {
-    vec2 shifted = abs(fract(value) - 0.5);
-    return vec2(min(slope_of(value.x), slope_of(shifted.x)), slope_of(value.y));
+    return vec2(min(slope_of(value.x), slope_of(fract(value.x + 0.5))), slope_of(value.y));
 }
 
-vec3 with_graticule(vec3 ground, vec4 drawn, vec2 value, vec2 slopes) {
+vec3 with_graticule(vec3 ground, float bright, vec4 drawn, vec2 value, vec2 slopes) {
     float share = max(lines_at(value.x, slopes.x, 1.4), lines_at(value.y, slopes.y, 1.4));
-    return mix(ground, ink(ground, vec3(0.05, 0.10, 0.33), vec3(0.84, 0.92, 1.00)), 0.9 * share * drawn.x);
+    return mix(ground, ink(bright, vec3(0.05, 0.10, 0.33), vec3(0.84, 0.92, 1.00)), 0.9 * share * drawn.x);
 }
 #endif

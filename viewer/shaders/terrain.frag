@@ -64,7 +64,8 @@ void main() {
     vec2 x = abs(dFdx(surface.grid));
     vec2 y = abs(dFdy(surface.grid));
     ivec2 cell = cell_at(surface.grid);
-    PagePlace place = page_place(surface.grid, cell, max(max(x.x, y.x), max(x.y, y.y)));
+    float apart = max(max(x.x, y.x), max(x.y, y.y));
+    PagePlace place = page_place(surface.grid, cell, apart);
 #if defined(TINTED_SEA) || defined(SHORE) || defined(DRY_LINES)
     float share = at_place(shore, place).r;
 #endif
@@ -148,7 +149,7 @@ void main() {
 #endif
     float slope = degrees(acos(clamp(true_normal.z, 0.0, 1.0)));
 #ifdef GROUND_MAP
-    vec4 given = mapped_weights(surface.grid, max(max(x.x, y.x), max(x.y, y.y)));
+    vec4 given = mapped_weights(surface.grid, apart);
 #else
     const vec4 given = vec4(0.0);
 #endif
@@ -171,6 +172,7 @@ void main() {
 #else
     const float dry = 1.0;
 #endif
+    float bright = brightness(shown);
     OVERLAYS
 #endif
     // The ground from below. Only where the eye can be there: seen from above, a sliver on a ridge may turn its back by
