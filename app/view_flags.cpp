@@ -91,6 +91,8 @@ void add_picture_flags(CLI::App& command, ViewFlags& flags) {
     add("--exaggeration", flags.exaggeration, "X", "Of heights, in the picture only [1]");
     add("--layer", flags.layer, "hypsometric|hillshade|slope|aspect|lod|terrain|plain",
         "What colours the ground [hypsometric]");
+    add("--ramp", flags.ramp, "viridis|grey|classic|FILE",
+        "Colours of heights in the layer hypsometric; a FILE as gdaldem color-relief reads it");
     add("--contours", flags.contours, "auto|METRES[,OPACITY]",
         "Lines of equal height over it, so many metres apart");
     add("--graticule", flags.graticule, "auto|latlon|utm|off[,OPACITY]",
@@ -190,6 +192,11 @@ Result<viewer::ViewState> read_view(const ViewFlags& flags, const viewer::ViewSt
     if (flags.exaggeration) view.exaggeration = *flags.exaggeration;
     if (flags.wireframe) view.wireframe = true;
     if (auto fine = check(view); !fine) return fine.error();
+    if (flags.ramp) {
+        auto ramp = viewer::read_height_ramp(*flags.ramp);
+        if (!ramp) return Error{ramp.error().kind, "--ramp: " + ramp.error().message};
+        view.ramp = std::make_shared<viewer::HeightRamp>(*std::move(ramp));
+    }
     if (flags.waves) {
         auto map = read_waves(*flags.waves, view.ocean.wind.from);
         if (!map) return map.error();

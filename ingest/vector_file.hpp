@@ -25,9 +25,9 @@ class VectorFile {
 
     /// Lines kLineTexels wide with a white rim, points as discs, whatever the texels' size. From any thread.
     ImageTexels draw(const GridSquare& square) const;
-    static constexpr double kLineTexels = 3.2;
-    static constexpr double kPointTexels = 5.0;  ///< radius
-    static constexpr double kRimTexels = 1.0;
+    static constexpr double kLineTexels = 5.0;
+    static constexpr double kPointTexels = 7.0;  ///< radius
+    static constexpr double kRimTexels = 1.4;
 
     /// In posts.
     struct Segment {

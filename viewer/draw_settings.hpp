@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 
+#include "viewer/height_ramp.hpp"
 #include "viewer/layer.hpp"
 #include "viewer/ocean/ocean_settings.hpp"
 #include "viewer/overlay.hpp"
@@ -22,6 +24,8 @@ struct DrawSettings {
     OceanSettings ocean = {.kind = OceanKind::off};
     /// Over all layers but the plain one, which pixels cost nothing.
     Overlays overlays = {};
+    /// Of the tints, land and sea; null: the scene's own.
+    std::shared_ptr<const HeightRamp> ramp = nullptr;
 };
 
 /// What a view says of it. Where it leaves the ocean open there is one in the tints and in the natural

@@ -11,7 +11,7 @@ namespace relevo::viewer {
 
 namespace {
 
-constexpr double kApartPx = 100;
+constexpr double kApartPx = 160;
 constexpr double kDegreeM = 111320;
 constexpr double kReachM = 50e3;
 

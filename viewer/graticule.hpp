@@ -26,7 +26,7 @@ struct Graticule {
     std::string text(int axis, double line) const;
 };
 
-/// One that suits a view: lines 100 to 300 pixels apart, where a pixel is so large, below the eye. Degrees
+/// One that suits a view: lines 160 to 480 pixels apart, where a pixel is so large, below the eye. Degrees
 /// come as 30, 10, 5, 2, 1, 30', 10', 5', 2', 1', 30", 10" ... and at last tenths of seconds. The UTM zone is
 /// the one below the eye, all over the picture.
 Graticule suitable_graticule(bool utm, geo::LatLon eye, double pixel_m);

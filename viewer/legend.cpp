@@ -23,14 +23,15 @@ std::vector<Legend::Mark> height_marks(const HeightSpan& span) {
 
 }  // namespace
 
-std::optional<Legend> legend(Layer layer, const HeightSpan& span, bool has_sea) {
+std::optional<Legend> legend(Layer layer, const HeightSpan& span, bool has_sea, const HeightRamp* ramp) {
     Legend made{.colours = colour_ramp(layer, span)};
     switch (layer) {
         case Layer::hypsometric: {
             made.title = "height";
             made.unit = "m";
             made.marks = height_marks(span);
-            if (!has_sea) return made;
+            if (ramp != nullptr) made.colours = colours_of(*ramp, span);
+            if (!has_sea || ramp != nullptr) return made;
             const auto sea = sea_ramp(span);
             const double below = span.high > span.low ? (0 - span.low) / (span.high - span.low) : 0;
             for (std::size_t i = 0; i < sea.size(); ++i) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "viewer/height_ramp.hpp"
 #include "viewer/layer.hpp"
 
 namespace relevo::viewer {
@@ -27,6 +28,8 @@ struct Legend {
 /// a power of ten.
 /// \param span      the scene's heights
 /// \param has_sea   heights below 0 are shown in the sea's colours
-std::optional<Legend> legend(Layer layer, const HeightSpan& span, bool has_sea);
+/// \param ramp      of the tints, where the user chose one
+std::optional<Legend> legend(Layer layer, const HeightSpan& span, bool has_sea,
+                             const HeightRamp* ramp = nullptr);
 
 }  // namespace relevo::viewer

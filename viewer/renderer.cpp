@@ -71,13 +71,17 @@ Result<Renderer> Renderer::create(const lod::Terrain& terrain, const GroundData&
     return made;
 }
 
-GlName Renderer::ramp(Layer layer) {
+GlName Renderer::ramp(const DrawSettings& settings) {
+    const Layer layer = settings.layer;
     GlTexture& ramp = ramps_[layer];
-    if (ramp) return ramp.name();
+    const bool is_tints = layer == Layer::hypsometric;
+    if (ramp && (!is_tints || ramp_ == settings.ramp)) return ramp.name();
+    if (is_tints) ramp_ = settings.ramp;
     const GroundFacts& facts = ground_->facts();
     const HeightSpan span{facts.lowest_m, facts.highest_m, facts.lowest_land_m};
-    const auto colours = colour_ramp(layer, span);
-    const auto sea = sea_ramp(span);
+    const bool is_own = is_tints && ramp_;
+    const auto colours = is_own ? colours_of(*ramp_, span) : colour_ramp(layer, span);
+    const auto sea = is_own ? colours : sea_ramp(span);
     ramp = GlTexture(create_gl_texture(GL_TEXTURE_2D));
     const GlName name = ramp.name();
     const auto width = static_cast<GLsizei>(colours.size());
@@ -259,7 +263,7 @@ void Renderer::draw_terrain(GlName program, const DrawSettings& settings) {
     glBindVertexArray(vertex_array_.name());
     ground_->bind();
     if (settings.layer == Layer::terrain) cover_->bind();
-    if (has_ramp(settings.layer)) glBindTextureUnit(kRampUnit, ramp(settings.layer));
+    if (has_ramp(settings.layer)) glBindTextureUnit(kRampUnit, ramp(settings));
     if (has_overlays(settings)) overlays_->bind();
     glEnable(GL_CLIP_DISTANCE0);
     glEnable(GL_CLIP_DISTANCE1);

@@ -104,7 +104,7 @@ class Renderer {
     void draw_terrain(GlName program, const DrawSettings& settings);
     Result<GlName> terrain_program(const Variant& variant);
     Result<GlName> sky_program(bool low_sun);
-    GlName ramp(Layer layer);
+    GlName ramp(const DrawSettings& settings);
     /// Nothing where no ground is under or over the eye.
     std::optional<bool> is_below_ground(const geo::Geodetic& eye, double exaggeration) const;
     /// The ocean's, where the eye is above the ground.
@@ -115,6 +115,7 @@ class Renderer {
     std::unique_ptr<GroundTextures> ground_;  // the ocean keeps a pointer to it
     std::unique_ptr<Ocean> ocean_;
     std::map<Layer, GlTexture> ramps_;        // of layers that have been drawn
+    std::shared_ptr<const HeightRamp> ramp_;  // that the tints have; null: their own
     std::optional<OverlayDrawing> overlays_;  // made with the first of them
     std::map<Variant, GlProgram> terrain_programs_;
     /// By day, and with a low sun, which is made when there is one.

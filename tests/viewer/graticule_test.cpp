@@ -27,14 +27,14 @@ TEST(Graticule, ChoosesRoundIntervals) {
     double last = 0;
     for (double pixel = 0.01; pixel < 1e5; pixel *= 1.3) {
         const auto utm = viewer::suitable_graticule(true, place, pixel);
-        EXPECT_GE(utm.interval.x, 100 * pixel * (1 - 1e-9));
-        EXPECT_LE(utm.interval.x, 251 * pixel);
+        EXPECT_GE(utm.interval.x, 160 * pixel * (1 - 1e-9));
+        EXPECT_LE(utm.interval.x, 401 * pixel);
         EXPECT_EQ(utm.zone.number, 32);
         const auto degrees = viewer::suitable_graticule(false, place, pixel);
         EXPECT_GE(degrees.interval.y, last);
         last = degrees.interval.y;
         EXPECT_LT(to_whole(90 / degrees.interval.y), 1e-4);
-        EXPECT_TRUE(degrees.interval.y == 30 || degrees.interval.y * 111320 >= 100 * pixel * (1 - 1e-9));
+        EXPECT_TRUE(degrees.interval.y == 30 || degrees.interval.y * 111320 >= 160 * pixel * (1 - 1e-9));
     }
 }
 
@@ -145,8 +145,8 @@ TEST(Graticule, IsDrawnWhereItBelongs) {
     for (const bool utm : {false, true}) {
         for (const double metres : {2.5, 40.0, 3000.0, 60000.0}) {
             // Near the grid's far corner, where a float of a column is coarsest.
-            const auto found =
-                check_lines(studio, above_looking_down(studio.terrain(), 1000.3, 990.7, metres), utm);
+            const auto found = check_lines(
+                studio, above_looking_down(studio.terrain(), 1000.3, 990.7, metres, 500, 375), utm);
             EXPECT_GT(found.pixels, 100) << utm << " " << metres;
             EXPECT_LT(found.worst_px, 1.0) << utm << " " << metres;
         }
@@ -158,11 +158,11 @@ TEST(Graticule, IsDrawnAroundThePoles) {
         const auto frame = polar_frame(kind, 257, 257, 1000, 3000, -5000);
         Studio studio(make_terrain(frame, make_heights(frame, [](int, int) { return 2000.0; })));
         for (const bool utm : {false, true}) {
-            auto camera = above_looking_down(studio.terrain(), 60, 90, 150e3);
+            auto camera = above_looking_down(studio.terrain(), 60, 90, 150e3, 500, 375);
             const auto found = check_lines(studio, camera, utm);
             EXPECT_GT(found.pixels, 100) << utm;
             EXPECT_LT(found.worst_px, 1.2) << utm;
-            camera = above_looking_down(studio.terrain(), 125, 133, 50e3);  // the pole in view
+            camera = above_looking_down(studio.terrain(), 125, 133, 50e3, 500, 375);  // the pole in view
             EXPECT_LT(check_lines(studio, camera, utm).worst_px, 1.5) << utm;
         }
     }

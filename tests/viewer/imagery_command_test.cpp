@@ -279,8 +279,8 @@ TEST_F(ImageryCommand, DrawsTracksAndWaypointsWhereTheyAre) {
             ++drawn;
             const glm::dvec2 p(x + 0.5, y + 0.5);
             const double t = glm::clamp(glm::dot(p - from, along), 0.0, glm::distance(from, to));
-            const double off = std::min(glm::distance(p, from + t * along), glm::distance(p, spot) - 5);
-            EXPECT_LT(off, 2.5) << x << " " << y;
+            const double off = std::min(glm::distance(p, from + t * along), glm::distance(p, spot) - 7);
+            EXPECT_LT(off, 3.5) << x << " " << y;
         }
     }
     EXPECT_GT(drawn, glm::distance(from, to));
