@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/command.hpp"
+#include "app/drape_flags.hpp"
 #include "app/ground_map_flag.hpp"
 #include "app/view_flags.hpp"
 #include "viewer/bench/machine.hpp"
@@ -69,9 +70,15 @@ nlohmann::json to_json(const viewer::ViewState& view, const viewer::PictureReque
                         {"ocean_triangles", figures.ocean.triangles},
                         {"ocean_draw_calls", figures.ocean.draw_calls},
                         {"ocean_ms", figures.ocean.arrange_ms + figures.ocean.draw_ms},
+                        {"overlays", nlohmann::json::array()},
                         {"gl_renderer", figures.gl},
                         {"at", to_string(view)}};
     if (figures.ocean.kind != viewer::OceanKind::off) json["ocean"] = to_string(figures.ocean.kind);
+    for (const auto& overlay : figures.overlays)
+        json["overlays"].push_back({{"overlay", to_string(viewer::Overlays{overlay.overlay})},
+                                    {"tiles", overlay.tiles},
+                                    {"gl_objects", overlay.gl_objects},
+                                    {"bytes", overlay.bytes}});
     if (view.method == viewer::Method::full) json["tau_px"] = json["tau_reached_px"] = nullptr;
     if (figures.error) {
         json["max_error_px"] = figures.error->max_px;
@@ -130,11 +137,14 @@ Result<void> run(const RenderFlags& flags) {
 
     const auto map = read_ground_map(flags.view.ground_map, terrain->frame());
     if (!map) return map.error();
+    auto drapes = read_drapes(flags.view, terrain->frame(), *view);
+    if (!drapes) return drapes.error();
     const viewer::GroundData ground{.pyramid = terrain->pyramid().get(),
                                     .facts = viewer::ground_facts(scene->info()),
                                     .cache_bytes = sizes.texel_bytes,
                                     .heights = &heights,
-                                    .map = *map};
+                                    .map = *map,
+                                    .drapes = *std::move(drapes)};
 
     const viewer::PictureRequest request{.width = size->width,
                                          .height = size->height,
@@ -167,6 +177,7 @@ void add_render(CLI::App& program, Action& action) {
         ->required()
         ->type_name("PICTURE");
     add_view_flags(*command, flags->view);
+    add_drape_flags(*command, flags->view);
     add_max_triangles_flag(*command, flags->budget);
     command
         ->add_option("--background", flags->background,

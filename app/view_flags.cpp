@@ -36,6 +36,24 @@ Result<void> read_eye(const std::string& text, viewer::ViewState& view) {
     return {};
 }
 
+/// Puts an overlay of a flag on top, in place of the one of its kind that --at has.
+Result<void> add_overlay(const char* flag, const Result<viewer::Overlay>& parsed, viewer::ViewState& view) {
+    if (!parsed) return usage(fmt::format("{}: {}", flag, parsed.error().message));
+    std::erase_if(view.overlays, [&](const viewer::Overlay& other) { return other.kind == parsed->kind; });
+    view.overlays.push_back(*parsed);
+    return {};
+}
+
+Result<void> read_graticule(const std::string& text, viewer::ViewState& view) {
+    const auto parsed = viewer::parse_graticule(text);
+    if (!parsed) return usage("--graticule: " + parsed.error().message);
+    if (*parsed) return add_overlay("--graticule", **parsed, view);
+    std::erase_if(view.overlays, [](const viewer::Overlay& other) {
+        return other.kind == viewer::Overlay::Kind::graticule;
+    });
+    return {};
+}
+
 void turn(viewer::ViewState& view, const ViewFlags& flags) {
     if (flags.heading) view.heading.value = *flags.heading;
     if (flags.pitch) view.pitch.value = *flags.pitch;
@@ -71,8 +89,14 @@ void add_picture_flags(CLI::App& command, ViewFlags& flags) {
     add("--tau", flags.tau, "PX", "Largest error on the screen, pixels [1]");
     add("--morph", flags.morph, "on|off", "Vertices move in continuously");
     add("--exaggeration", flags.exaggeration, "X", "Of heights, in the picture only [1]");
-    add("--layer", flags.layer, "hypsometric|hillshade|slope|lod|terrain|plain",
+    add("--layer", flags.layer, "hypsometric|hillshade|slope|aspect|lod|terrain|plain",
         "What colours the ground [hypsometric]");
+    add("--ramp", flags.ramp, "viridis|grey|classic|FILE",
+        "Colours of heights in the layer hypsometric; a FILE as gdaldem color-relief reads it");
+    add("--contours", flags.contours, "auto|METRES[,OPACITY]",
+        "Lines of equal height over it, so many metres apart");
+    add("--graticule", flags.graticule, "auto|latlon|utm|off[,OPACITY]",
+        "Lines of latitude and longitude, or of the UTM zone below the eye");
     add("--sun", flags.sun, "auto|AZ,EL|TIME", "Where the light comes from; TIME is ISO 8601 [auto: 315,45]");
     add("--ocean", flags.ocean, "auto|geoclipmap|radial|projected|off", "The sea's mesh [auto]");
     add("--wind", flags.wind, "SPEED,FROM", "What raises the waves, m/s and degrees; 0: a flat sea [6,300]");
@@ -157,6 +181,9 @@ Result<viewer::ViewState> read_view(const ViewFlags& flags, const viewer::ViewSt
     if (done && flags.sun) done = keep("--sun", viewer::parse_sun(*flags.sun), view.sun);
     if (done && flags.ocean) done = keep("--ocean", viewer::parse_ocean(*flags.ocean), view.ocean.kind);
     if (done && flags.wind) done = keep("--wind", viewer::parse_wind(*flags.wind), view.ocean.wind);
+    if (done && flags.contours)
+        done = add_overlay("--contours", viewer::parse_contours(*flags.contours), view);
+    if (done && flags.graticule) done = read_graticule(*flags.graticule, view);
     if (!done) return done.error();
     turn(view, flags);
     if (flags.time) view.ocean.time_s = *flags.time;
@@ -165,6 +192,11 @@ Result<viewer::ViewState> read_view(const ViewFlags& flags, const viewer::ViewSt
     if (flags.exaggeration) view.exaggeration = *flags.exaggeration;
     if (flags.wireframe) view.wireframe = true;
     if (auto fine = check(view); !fine) return fine.error();
+    if (flags.ramp) {
+        auto ramp = viewer::read_height_ramp(*flags.ramp);
+        if (!ramp) return Error{ramp.error().kind, "--ramp: " + ramp.error().message};
+        view.ramp = std::make_shared<viewer::HeightRamp>(*std::move(ramp));
+    }
     if (flags.waves) {
         auto map = read_waves(*flags.waves, view.ocean.wind.from);
         if (!map) return map.error();

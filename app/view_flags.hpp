@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -24,7 +25,8 @@ struct PictureSize {
 /// The flags that say what is seen: shared by the commands that draw.
 struct ViewFlags {
     std::optional<std::string> at, eye, size, method, metric, morph, layer, sun, ocean, wind, waves,
-        ground_map;
+        ground_map, contours, graticule, ramp;
+    std::vector<std::string> imagery, vectors;
     std::optional<double> heading, pitch, roll, fov, tau, exaggeration, time;
     bool wireframe = false;
     std::optional<int> samples;

@@ -7,7 +7,9 @@ DrawSettings draw_settings(const ViewState& view) {
                           .wireframe = view.wireframe,
                           .exaggeration = view.exaggeration,
                           .sun = view.sun,
-                          .ocean = view.ocean};
+                          .ocean = view.ocean,
+                          .overlays = view.layer == Layer::plain ? Overlays{} : view.overlays,
+                          .ramp = view.ramp};
     if (view.layer == Layer::plain || (view.ocean.kind == OceanKind::automatic &&
                                        view.layer != Layer::hypsometric && view.layer != Layer::terrain))
         settings.ocean.kind = OceanKind::off;

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 
+#include "viewer/height_ramp.hpp"
 #include "viewer/layer.hpp"
 #include "viewer/ocean/ocean_settings.hpp"
+#include "viewer/overlay.hpp"
 #include "viewer/sun_setting.hpp"
 #include "viewer/view_state.hpp"
 
@@ -19,6 +22,10 @@ struct DrawSettings {
     /// A flat colour, 0 to 1, instead of sky, horizon and haze.
     std::optional<std::array<float, 3>> background = {};
     OceanSettings ocean = {.kind = OceanKind::off};
+    /// Over all layers but the plain one, which pixels cost nothing.
+    Overlays overlays = {};
+    /// Of the tints, land and sea; null: the scene's own.
+    std::shared_ptr<const HeightRamp> ramp = nullptr;
 };
 
 /// What a view says of it. Where it leaves the ocean open there is one in the tints and in the natural

@@ -37,6 +37,18 @@ constexpr std::array<Stop, 6> kSlope{{{0.00, 247, 247, 242},
                                       {0.83, 128, 28, 84},
                                       {1.00, 52, 14, 72}}};
 
+// By compass: north blue, east green, south yellow, west red, and halfway between. Lightness 58 to 78:
+// north-west, from where maps are lit, is about as light as south-east, for nothing here is light or shadow.
+constexpr std::array<Stop, 9> kAspect{{{0.000, 98, 146, 214},
+                                       {0.125, 84, 178, 190},
+                                       {0.250, 110, 190, 112},
+                                       {0.375, 180, 200, 84},
+                                       {0.500, 238, 200, 84},
+                                       {0.625, 238, 152, 84},
+                                       {0.750, 218, 108, 108},
+                                       {0.875, 168, 116, 184},
+                                       {1.000, 98, 146, 214}}};
+
 std::array<std::uint8_t, 4> colour_at(std::span<const Stop> stops, double at) {
     std::size_t upper = 1;
     while (upper + 1 < stops.size() && stops[upper].at < at) ++upper;
@@ -65,6 +77,8 @@ std::string_view to_string(Layer layer) {
             return "terrain";
         case Layer::plain:
             return "plain";
+        case Layer::aspect:
+            return "aspect";
         case Layer::lod:
             break;
     }
@@ -72,19 +86,19 @@ std::string_view to_string(Layer layer) {
 }
 
 Result<Layer> parse_layer(std::string_view text) {
-    for (const Layer layer :
-         {Layer::hypsometric, Layer::hillshade, Layer::slope, Layer::lod, Layer::terrain, Layer::plain}) {
+    for (const Layer layer : {Layer::hypsometric, Layer::hillshade, Layer::slope, Layer::aspect, Layer::lod,
+                              Layer::terrain, Layer::plain}) {
         if (text == to_string(layer)) return layer;
     }
     if (text == "imagery") {
         return Error{
             ErrorKind::usage,
-            fmt::format("the layer \"{}\" comes with a later version; hypsometric, hillshade, slope, lod, "
-                        "terrain and plain are here",
-                        text)};
+            "imagery is drawn over a layer: --imagery FILE; layers are hypsometric, hillshade, slope, "
+            "aspect, lod, terrain and plain"};
     }
-    return Error{ErrorKind::usage,
-                 fmt::format("no layer \"{}\": hypsometric, hillshade, slope, lod, terrain or plain", text)};
+    return Error{
+        ErrorKind::usage,
+        fmt::format("no layer \"{}\": hypsometric, hillshade, slope, aspect, lod, terrain or plain", text)};
 }
 
 std::vector<std::array<std::uint8_t, 4>> colour_ramp(Layer layer, const HeightSpan& span) {
@@ -94,6 +108,10 @@ std::vector<std::array<std::uint8_t, 4>> colour_ramp(Layer layer, const HeightSp
         const double at = i / (kTexels - 1.0);
         if (layer == Layer::slope) {
             colours.push_back(colour_at(kSlope, at));
+            continue;
+        }
+        if (layer == Layer::aspect) {
+            colours.push_back(colour_at(kAspect, at));
             continue;
         }
         const double H = span.low + at * (span.high - span.low);

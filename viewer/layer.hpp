@@ -17,6 +17,7 @@ enum class Layer {
     lod,          ///< the level of each triangle
     terrain,      ///< grass, rock, gravel and snow, by day and by night
     plain,        ///< one colour, lit at the vertices: nothing a pixel but blending, for measuring
+    aspect,       ///< the direction in which the true ground falls; flat ground is grey
 };
 
 std::string_view to_string(Layer layer);

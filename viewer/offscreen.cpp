@@ -33,7 +33,7 @@ int largest_side(int samples) {
 constexpr int kSmallestSide = 256;
 
 /// Side of the tiles: the largest for which the ground that each of them wants has room.
-int tile_side(const Renderer& renderer, const lod::View& view, const DrawSettings& settings,
+int tile_side(Renderer& renderer, const lod::View& view, const DrawSettings& settings,
               const PictureRequest& request) {
     const auto fits = [&](int side) {
         for (int y = 0; y < request.height; y += side) {
@@ -132,6 +132,11 @@ Result<FinishedPicture> draw_picture(const lod::Terrain& terrain, const GroundDa
             ground_seen = ground_seen || drawn->ground_seen;
             target->read_into(made.picture, x, y);
         }
+    }
+    for (const Overlay& overlay : settings.overlays) {
+        const bool of_file = overlay.kind == Overlay::Kind::imagery || overlay.kind == Overlay::Kind::vectors;
+        const auto drape = of_file ? renderer->drape_figures(overlay.file) : OverlayDrawing::DrapeFigures{};
+        figures.overlays.push_back({overlay, drape.tiles, drape.gl_objects, drape.bytes});
     }
     figures.frame_ms = frame.ms() - loading_ms;
     if (auto done = gl_check("reading the picture"); !done) return done.error();

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "geo/result.hpp"
 #include "lod/oracle.hpp"
@@ -37,6 +38,14 @@ struct PictureFigures {
     std::optional<lod::MeasuredError> error;  ///< only where asked for and something is in view
     OceanFigures ocean;                       ///< of all parts that the picture was drawn in
     std::string gl;                           ///< what drew
+    /// What each overlay took besides its part of the ground's program. Those that are off are not there.
+    struct OfOverlay {
+        Overlay overlay;
+        std::uint64_t tiles = 0;  ///< loaded
+        int gl_objects = 0;
+        std::size_t bytes = 0;  ///< of them
+    };
+    std::vector<OfOverlay> overlays;
 };
 
 struct FinishedPicture {

@@ -34,6 +34,14 @@ Sight sight_of(const lod::View& view, const PicturePart& part, Layer layer) {
     return {view, part, layer == Layer::plain ? kVertexPixels : 1};
 }
 
+bool has_ramp(Layer layer) {
+    return layer == Layer::hypsometric || layer == Layer::slope || layer == Layer::aspect;
+}
+
+bool has_overlays(const DrawSettings& settings) {
+    return settings.layer != Layer::plain && !settings.overlays.empty();
+}
+
 /// Has shaders/light.glsl dusk or night there?
 bool is_low(const SunSetting& sun, const geo::Geodetic& eye) {
     return std::sin(sun_at(sun, {eye.lat, eye.lon}).elevation.radians()) < 0.22;
@@ -41,17 +49,16 @@ bool is_low(const SunSetting& sun, const geo::Geodetic& eye) {
 
 }  // namespace
 
-Renderer::Renderer(const lod::Terrain& terrain, GroundTextures ground, const EyeHeight* heights)
+Renderer::Renderer(const lod::Terrain& terrain, GroundTextures ground, const GroundData& data)
     : terrain_(&terrain),
       ground_(std::make_unique<GroundTextures>(std::move(ground))),
-      ocean_(std::make_unique<Ocean>(terrain, *ground_, heights)) {}
+      ocean_(std::make_unique<Ocean>(terrain, *ground_, data.heights)),
+      data_(data) {}
 
 Result<Renderer> Renderer::create(const lod::Terrain& terrain, const GroundData& data) {
     auto ground = GroundTextures::create(terrain, data);
     if (!ground) return ground.error();
-    Renderer made(terrain, *std::move(ground), data.heights);
-    made.ground_map_ = data.map;
-    if (auto done = made.make_ramps(); !done) return done.error();
+    Renderer made(terrain, *std::move(ground), data);
 
     made.frame_ = GlBuffer::create();
     glNamedBufferStorage(made.frame_.name(), sizeof(FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
@@ -64,25 +71,28 @@ Result<Renderer> Renderer::create(const lod::Terrain& terrain, const GroundData&
     return made;
 }
 
-Result<void> Renderer::make_ramps() {
-    const std::array<Layer, 2> layers{Layer::hypsometric, Layer::slope};
-    for (std::size_t i = 0; i < layers.size(); ++i) {
-        const GroundFacts& facts = ground_->facts();
-        const HeightSpan span{facts.lowest_m, facts.highest_m, facts.lowest_land_m};
-        const auto colours = colour_ramp(layers[i], span);
-        const auto sea = sea_ramp(span);
-        ramps_[i] = GlTexture(create_gl_texture(GL_TEXTURE_2D));
-        const GlName name = ramps_[i].name();
-        const auto width = static_cast<GLsizei>(colours.size());
-        glTextureStorage2D(name, 1, GL_RGBA8, width, 2);
-        glTextureSubImage2D(name, 0, 0, 0, width, 1, GL_RGBA, GL_UNSIGNED_BYTE, colours.data());
-        glTextureSubImage2D(name, 0, 0, 1, width, 1, GL_RGBA, GL_UNSIGNED_BYTE, sea.data());
-        glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-        glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-        glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-        glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    }
-    return gl_check("making the colours");
+GlName Renderer::ramp(const DrawSettings& settings) {
+    const Layer layer = settings.layer;
+    GlTexture& ramp = ramps_[layer];
+    const bool is_tints = layer == Layer::hypsometric;
+    if (ramp && (!is_tints || ramp_ == settings.ramp)) return ramp.name();
+    if (is_tints) ramp_ = settings.ramp;
+    const GroundFacts& facts = ground_->facts();
+    const HeightSpan span{facts.lowest_m, facts.highest_m, facts.lowest_land_m};
+    const bool is_own = is_tints && ramp_;
+    const auto colours = is_own ? colours_of(*ramp_, span) : colour_ramp(layer, span);
+    const auto sea = is_own ? colours : sea_ramp(span);
+    ramp = GlTexture(create_gl_texture(GL_TEXTURE_2D));
+    const GlName name = ramp.name();
+    const auto width = static_cast<GLsizei>(colours.size());
+    glTextureStorage2D(name, 1, GL_RGBA8, width, 2);
+    glTextureSubImage2D(name, 0, 0, 0, width, 1, GL_RGBA, GL_UNSIGNED_BYTE, colours.data());
+    glTextureSubImage2D(name, 0, 0, 1, width, 1, GL_RGBA, GL_UNSIGNED_BYTE, sea.data());
+    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    return name;
 }
 
 void Renderer::make_vertex_array() {
@@ -132,7 +142,11 @@ Result<GlName> Renderer::terrain_program(const Variant& variant) {
     if (const auto* polar = terrain_->positions().polar())
         defines += fmt::format("#define POLE {:.1f}\n", polar->plane().pole);
     const bool covered = variant.layer == Layer::terrain;
-    if (variant.ocean || covered) defines += shore_defines(ground_->facts());
+    defines += height_defines(ground_->facts());
+    if (!variant.overlays.empty()) {
+        defines += overlay_defines(variant.overlays, data_.drapes.size());
+        if (ground_->facts().has_sea && !variant.ocean) defines += "#define DRY_LINES\n";
+    }
     if (variant.ocean) {
         defines += "#define OCEAN\n";
     } else if (ground_->facts().has_sea && (variant.layer == Layer::hypsometric || covered)) {
@@ -141,14 +155,19 @@ Result<GlName> Renderer::terrain_program(const Variant& variant) {
     std::string common(shader_text("frame.glsl"));
     if (covered) {
         defines += ground_->facts().has_sea ? "#define COVER\n#define SHORE\n" : "#define COVER\n";
-        if (ground_map_) defines += "#define GROUND_MAP\n";
+        if (data_.map) defines += "#define GROUND_MAP\n";
         common += std::string(shader_text("light.glsl")) + std::string(shader_text("cover_block.glsl"));
     }
+    if (!variant.overlays.empty()) common += shader_text("overlay_block.glsl");
     const bool plain = variant.layer == Layer::plain;
     if (plain) defines += "#define PLAIN\n";
     const std::string ground(shader_text("ground.glsl"));
     const std::string vertex = (plain ? ground : "") + std::string(shader_text("terrain.vert"));
     const std::string fragment = ground +
+                                 std::string(variant.overlays.empty() ? "" : shader_text("overlays.glsl")) +
+                                 std::string(variant.overlays.empty() ? "" : "#ifdef DRAPES\n") +
+                                 std::string(variant.overlays.empty() ? "" : shader_text("drape.glsl")) +
+                                 std::string(variant.overlays.empty() ? "" : "#endif\n") +
                                  std::string(covered ? shader_text("cover.glsl") : std::string_view{}) +
                                  std::string(variant.ocean ? shader_text("shore.glsl") : std::string_view{}) +
                                  std::string(shader_text(plain ? "plain.frag" : "terrain.frag"));
@@ -169,8 +188,26 @@ void Renderer::upload(const lod::Mesh& mesh) {
     index_count_ = static_cast<int>(mesh.indices.size());
 }
 
+Result<void> Renderer::provide_overlays(const DrawSettings& settings) {
+    if (!has_overlays(settings)) return {};
+    if (!overlays_) overlays_.emplace(*terrain_, data_);
+    return overlays_->provide(settings);
+}
+
+bool Renderer::ground_fits(const lod::View& view, const DrawSettings& settings, const PicturePart& part) {
+    // What cannot be made is told where it is drawn.
+    const bool drapes = provide_overlays(settings) && has_overlays(settings);
+    const Sight sight(view, part);
+    return ground_->fits(sight, settings.exaggeration) && (!drapes || overlays_->fits(settings, sight));
+}
+
 Result<void> Renderer::complete(const lod::View& view, const DrawSettings& settings,
                                 const PicturePart& part) {
+    if (auto done = provide_overlays(settings); !done) return done;
+    if (has_overlays(settings)) {
+        if (auto done = overlays_->complete(settings, sight_of(view, part, settings.layer)); !done)
+            return done;
+    }
     if (auto done = ground_->complete(sight_of(view, part, settings.layer), settings.exaggeration); !done)
         return done;
     return gl_check("loading the terrain's normals");
@@ -182,7 +219,8 @@ Renderer::Variant Renderer::variant(const DrawSettings& settings) const {
             .sun_fixed = settings.sun.kind == SunSetting::Kind::time,
             .sky = !settings.background,
             .ocean = settings.ocean.kind != OceanKind::off && ground_->facts().has_sea,
-            .probe = false};
+            .probe = false,
+            .overlays = drawn_overlays(settings, data_.drapes.size())};
 }
 
 std::optional<bool> Renderer::is_below_ground(const geo::Geodetic& eye, double exaggeration) const {
@@ -208,8 +246,11 @@ void Renderer::prepare(const lod::View& view, const DrawSettings& settings, cons
     glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, frame_.name());
     ground_->update(sight_of(view, part, settings.layer), settings.exaggeration);
     if (settings.layer == Layer::terrain) {
-        if (!cover_) cover_.emplace(ground_map_.get());
+        if (!cover_) cover_.emplace(data_.map.get());
         cover_->update(terrain_->frame(), {view.camera().eye.lat, view.camera().eye.lon});
+    }
+    if (has_overlays(settings)) {
+        overlays_->update(view, settings, sight_of(view, part, settings.layer));
     }
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);  // the ground is also seen from below
@@ -217,12 +258,13 @@ void Renderer::prepare(const lod::View& view, const DrawSettings& settings, cons
     glDepthFunc(GL_GREATER);
 }
 
-void Renderer::draw_terrain(GlName program, Layer layer) {
+void Renderer::draw_terrain(GlName program, const DrawSettings& settings) {
     glUseProgram(program);
     glBindVertexArray(vertex_array_.name());
     ground_->bind();
-    if (layer == Layer::terrain) cover_->bind();
-    glBindTextureUnit(kRampUnit, ramps_[layer == Layer::slope ? 1 : 0].name());
+    if (settings.layer == Layer::terrain) cover_->bind();
+    if (has_ramp(settings.layer)) glBindTextureUnit(kRampUnit, ramp(settings));
+    if (has_overlays(settings)) overlays_->bind();
     glEnable(GL_CLIP_DISTANCE0);
     glEnable(GL_CLIP_DISTANCE1);
     glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
@@ -238,9 +280,11 @@ Result<int> Renderer::fill(const lod::View& view, const DrawSettings& settings) 
 
 Result<DrawFigures> Renderer::probe(const lod::View& view, const DrawSettings& settings) {
     DrawFigures figures;
+    if (auto done = provide_overlays(settings); !done) return done.error();
     Variant probing = variant(settings);
     probing.wireframe = false;  // covers what the plain ground covers
     probing.probe = true;
+    probing.overlays.clear();
     const auto program = terrain_program(probing);
     if (!program) return program.error();
     prepare(view, settings, {0, 0, view.camera().width, view.camera().height});
@@ -249,7 +293,7 @@ Result<DrawFigures> Renderer::probe(const lod::View& view, const DrawSettings& s
     figures.ocean = *ocean;
     figures.draw_calls = ocean->draw_calls;
     if (index_count_ > 0) {
-        draw_terrain(*program, settings.layer);
+        draw_terrain(*program, settings);
         ++figures.draw_calls;
     }
     if (const auto filled = fill(view, settings); !filled) return filled.error();
@@ -262,6 +306,7 @@ Result<DrawFigures> Renderer::probe(const lod::View& view, const DrawSettings& s
 Result<DrawFigures> Renderer::draw(const lod::View& view, const DrawSettings& settings,
                                    const RenderTarget& target, Region region, bool measured) {
     DrawFigures figures;
+    if (auto done = provide_overlays(settings); !done) return done.error();
     const bool sky = !settings.background;
     const auto program = terrain_program(variant(settings));
     if (!program) return program.error();
@@ -289,7 +334,7 @@ Result<DrawFigures> Renderer::draw(const lod::View& view, const DrawSettings& se
     }
     figures.draw_calls += ocean->draw_calls;
     if (index_count_ > 0) {
-        draw_terrain(*program, settings.layer);
+        draw_terrain(*program, settings);
         ++figures.draw_calls;
     }
     const auto filled = fill(view, settings);

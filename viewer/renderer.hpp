@@ -16,6 +16,7 @@
 #include "viewer/ground/ground_textures.hpp"
 #include "viewer/layer.hpp"
 #include "viewer/ocean/ocean.hpp"
+#include "viewer/overlay_drawing.hpp"
 #include "viewer/render_target.hpp"
 
 namespace relevo::viewer {
@@ -50,12 +51,10 @@ class Renderer {
 
     /// Pieces of the ground that the last picture wanted and that have not come yet: it was drawn with
     /// coarser ones in their places.
-    std::size_t pending() const { return ground_->pending(); }
+    std::size_t pending() const { return ground_->pending() + (overlays_ ? overlays_->pending() : 0); }
 
     /// Is there room for all of the ground's texels that a picture's part wants? Else it is drawn coarser.
-    bool ground_fits(const lod::View& view, const DrawSettings& settings, const PicturePart& part) const {
-        return ground_->fits(Sight(view, part), settings.exaggeration);
-    }
+    bool ground_fits(const lod::View& view, const DrawSettings& settings, const PicturePart& part);
 
     /// Draws the uploaded mesh, which must have been made for this view, and sky. The ground's texels that
     /// are not there yet come in the background.
@@ -71,25 +70,41 @@ class Renderer {
     /// 0, 0, 1) where there is ground, Ocean::Look::probe where there is sea, no sky.
     Result<DrawFigures> probe(const lod::View& view, const DrawSettings& settings);
 
+    /// Metres between the contours of the last picture; nothing where it had none.
+    std::optional<double> contour_interval_m() const {
+        return overlays_ ? overlays_->contour_interval_m() : std::nullopt;
+    }
+
+    /// The lines of the last picture's graticule, likewise.
+    std::optional<Graticule> graticule() const { return overlays_ ? overlays_->graticule() : std::nullopt; }
+
+    /// Of a file that overlays drape: what it has made and loaded so far. All 0 while it is off.
+    OverlayDrawing::DrapeFigures drape_figures(int file) const {
+        return overlays_ ? overlays_->figures(file) : OverlayDrawing::DrapeFigures{};
+    }
+
     Ocean& ocean() { return *ocean_; }
     const Ocean& ocean() const { return *ocean_; }
 
   private:
-    Renderer(const lod::Terrain& terrain, GroundTextures ground, const EyeHeight* heights);
+    Renderer(const lod::Terrain& terrain, GroundTextures ground, const GroundData& data);
 
     /// What makes one terrain program differ from another.
     struct Variant {
         Layer layer;
         bool wireframe, sun_fixed, sky, ocean, probe;
+        std::vector<DrawnOverlay> overlays;
         friend auto operator<=>(const Variant&, const Variant&) = default;
     };
     Variant variant(const DrawSettings& settings) const;
+    /// Makes what overlays need that were not drawn before.
+    Result<void> provide_overlays(const DrawSettings& settings);
     /// Sets what all of a part of a picture needs, and has its ground's texels come.
     void prepare(const lod::View& view, const DrawSettings& settings, const PicturePart& part);
-    void draw_terrain(GlName program, Layer layer);
+    void draw_terrain(GlName program, const DrawSettings& settings);
     Result<GlName> terrain_program(const Variant& variant);
     Result<GlName> sky_program(bool low_sun);
-    Result<void> make_ramps();
+    GlName ramp(const DrawSettings& settings);
     /// Nothing where no ground is under or over the eye.
     std::optional<bool> is_below_ground(const geo::Geodetic& eye, double exaggeration) const;
     /// The ocean's, where the eye is above the ground.
@@ -99,12 +114,14 @@ class Renderer {
     const lod::Terrain* terrain_;
     std::unique_ptr<GroundTextures> ground_;  // the ocean keeps a pointer to it
     std::unique_ptr<Ocean> ocean_;
-    std::array<GlTexture, 2> ramps_;  // hypsometric, slope
+    std::map<Layer, GlTexture> ramps_;        // of layers that have been drawn
+    std::shared_ptr<const HeightRamp> ramp_;  // that the tints have; null: their own
+    std::optional<OverlayDrawing> overlays_;  // made with the first of them
     std::map<Variant, GlProgram> terrain_programs_;
     /// By day, and with a low sun, which is made when there is one.
     std::array<GlProgram, 2> sky_programs_;
-    std::shared_ptr<const GroundMap> ground_map_;  // null: there is none
-    std::optional<GroundCover> cover_;             // made with the layer's first picture
+    GroundData data_;
+    std::optional<GroundCover> cover_;  // made with the layer's first picture
     GlBuffer frame_;
     GlBuffer vertices_;
     GlBuffer indices_;

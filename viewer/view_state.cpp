@@ -44,6 +44,7 @@ Result<void> set(ViewState& view, std::string_view key, std::string_view value) 
     if (key == "metric") return keep(parse_metric(value), view.metric);
     if (key == "morph") return keep(parse_switch(value), view.morph);
     if (key == "layer") return keep(parse_layer(value), view.layer);
+    if (key == "overlays") return keep(parse_overlays(value), view.overlays);
     if (key == "wireframe") return keep(parse_switch(value), view.wireframe);
     if (key == "sun") return keep(parse_sun(value), view.sun);
     if (key == "ocean") return keep(parse_ocean(value), view.ocean.kind);
@@ -120,12 +121,12 @@ std::string to_string(const ViewState& view) {
     // "{}" prints the shortest digits that read back as the same double.
     return fmt::format(
         "{},{},{}/heading={}/pitch={}/roll={}/fov={}/tau={}/lod={}/metric={}/morph={}/layer={}/wireframe={}/"
-        "exaggeration={}/sun={}/ocean={}/wind={},{}/time={}",
+        "exaggeration={}/sun={}/ocean={}/wind={},{}/time={}/overlays={}",
         view.place.lat.value, view.place.lon.value, view.H.m, view.heading.value, view.pitch.value,
         view.roll.value, view.fov.value, view.tau_px, to_string(view.method), metric_name(view.metric),
         view.morph ? "on" : "off", to_string(view.layer), view.wireframe ? "on" : "off", view.exaggeration,
         view.sun.text, to_string(view.ocean.kind), view.ocean.wind.speed_m_s, view.ocean.wind.from.value,
-        view.ocean.time_s);
+        view.ocean.time_s, to_string(view.overlays));
 }
 
 Result<ViewState> parse_view_state(std::string_view text, const ViewState& base) {

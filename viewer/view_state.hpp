@@ -1,13 +1,16 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 
 #include "geo/position.hpp"
 #include "geo/result.hpp"
 #include "lod/terrain.hpp"
+#include "viewer/height_ramp.hpp"
 #include "viewer/layer.hpp"
 #include "viewer/ocean/ocean_settings.hpp"
+#include "viewer/overlay.hpp"
 #include "viewer/sun_setting.hpp"
 
 namespace relevo::viewer {
@@ -45,6 +48,8 @@ struct ViewState {
     bool wireframe = false;
     SunSetting sun;
     OceanSettings ocean;  ///< its error is tau_px
+    Overlays overlays;
+    std::shared_ptr<const HeightRamp> ramp;  ///< null: the tints' own
 };
 
 /// Fails with ErrorKind::usage where a value is out of its range.
@@ -52,7 +57,8 @@ Result<void> check(const ViewState& view);
 
 /// The whole view as one string without spaces or characters that a shell knows:
 /// "37.58,-105.49,4500/heading=90/pitch=-10/roll=0/fov=60/tau=1/lod=soar/metric=bounded/...". Parsing it
-/// gives the same view, to the last bit. A map of waves is not in it.
+/// gives the same view, to the last bit. A map of waves and a ramp are not in it, nor are the files of
+/// imagery and vectors: overlays tell the number of theirs.
 std::string to_string(const ViewState& view);
 
 /// Reads such a string. What it leaves out keeps the value it has in `base`; only the place must be there.

@@ -12,6 +12,7 @@
 
 #include "lod/pyramid/memory_pyramid.hpp"
 #include "tests/lod/synthetic_terrain.hpp"
+#include "viewer/ground/height_code.hpp"
 
 namespace relevo::test {
 namespace {
@@ -93,7 +94,7 @@ class GroundPagesTest : public testing::Test {
     void expect_in_slot(int slot, const Page& page) const {
         const double H = NumberedPyramid::number(page);
         ASSERT_TRUE(in_slot_.count(slot));
-        ASSERT_EQ(in_slot_.at(slot), std::lround((H - 5000) / 5000 * 32767));
+        ASSERT_EQ(in_slot_.at(slot), viewer::height_code({.lowest_m = 0, .highest_m = 1e4}).of(H));
     }
 
     const geo::GridFrame frame_ = geographic_frame(4097, 2500);
@@ -250,7 +251,7 @@ TEST(PageTexels, GoOnBeyondTheDataAndKnowTheirVoids) {
                 if (line[column][3] == 0) continue;
                 const int at = (column + page.column * 256) << level;
                 EXPECT_EQ(line[column][3], 32767);
-                EXPECT_NEAR(line[column][2], (at - 150) / 150.0 * 32767, 1);
+                EXPECT_EQ(line[column][2], viewer::height_code(facts).of(1000 + at));
             }
         }
         for (int row = 0; row < 256; ++row) {

@@ -24,6 +24,7 @@ void expect_same(const ViewState& a, const ViewState& b) {
     EXPECT_EQ(a.layer, b.layer);
     EXPECT_EQ(a.wireframe, b.wireframe);
     EXPECT_EQ(a.sun.text, b.sun.text);
+    EXPECT_EQ(a.overlays, b.overlays);
 }
 
 TEST(ViewString, RoundTripsToTheLastBit) {
@@ -45,7 +46,15 @@ TEST(ViewString, RoundTripsToTheLastBit) {
         view.metric = i % 3 == 0 ? lod::ErrorMetric::bounded : lod::ErrorMetric::incremental;
         view.morph = i % 5 == 0;
         view.exaggeration = any(0, 20);
-        view.layer = static_cast<Layer>(i % 6);
+        view.layer = static_cast<Layer>(i % 7);
+        for (int k = 0; k < i % 4; ++k) {
+            view.overlays.push_back({.kind = static_cast<Overlay::Kind>((i + k) % 4), .opacity = any(0, 1)});
+            Overlay& overlay = view.overlays.back();
+            if (overlay.kind == Overlay::Kind::contours && i % 3 != 0) overlay.interval_m = any(0.01, 1e4);
+            if (overlay.kind == Overlay::Kind::graticule) overlay.utm = i % 2 == 0;
+            if (overlay.kind == Overlay::Kind::imagery || overlay.kind == Overlay::Kind::vectors)
+                overlay.file = i % 3;
+        }
         view.wireframe = i % 7 == 0;
         view.sun = *parse_sun(i % 3 == 0   ? "auto"
                               : i % 3 == 1 ? fmt::format("{},{}", any(0, 360), any(-90, 90))

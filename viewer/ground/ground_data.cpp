@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "viewer/ground/height_code.hpp"
 #include "viewer/ground/page.hpp"
 
 namespace relevo::viewer {
@@ -23,10 +24,13 @@ GroundFacts ground_facts(const lod::SceneInfo& info) {
                                         info.sea.rule == lod::SeaInfo::Rule::mask)};
 }
 
-std::string shore_defines(const GroundFacts& facts) {
-    return fmt::format("#define SCENE_MIDDLE {:.6f}\n#define SCENE_HALF {:.6f}\n",
-                       0.5 * (facts.highest_m + facts.lowest_m),
-                       std::max(0.5 * (facts.highest_m - facts.lowest_m), 1e-6));
+std::string height_defines(const GroundFacts& facts) {
+    const HeightCode code = height_code(facts);
+    return fmt::format(
+        "#define SCENE_MIDDLE ({:.9e})\n#define SCENE_HALF {:.9e}\n#define SCENE_STEP {:.9e}\n"
+        "#define SCENE_LOWEST ({:.9e})\n#define SCENE_RANGE {:.9e}\n",
+        code.middle_m, code.half_m(), code.step_m, facts.lowest_m,
+        std::max(facts.highest_m - facts.lowest_m, 1e-6));
 }
 
 Result<GroundFacts> ground_facts(const lod::Pyramid& pyramid) {

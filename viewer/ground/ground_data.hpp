@@ -9,6 +9,7 @@
 #include "lod/pyramid/pyramid.hpp"
 #include "lod/scene/scene_info.hpp"
 #include "viewer/eye_height.hpp"
+#include "viewer/ground/drape.hpp"
 #include "viewer/ground/ground_map.hpp"
 
 namespace relevo::viewer {
@@ -23,8 +24,8 @@ struct GroundFacts {
     bool sea_is_level = false;  ///< the data has no bed under its sea, but heights of 0
 };
 
-/// Definitions of shaders/shore.glsl.
-std::string shore_defines(const GroundFacts& facts);
+/// Definitions for shaders that read heights from the pages.
+std::string height_defines(const GroundFacts& facts);
 
 /// Of a scene, from what its scene.json says. Of its land next to sea it says the lowest only where that is
 /// below 0: else 0 is taken.
@@ -43,6 +44,10 @@ struct GroundData {
     const EyeHeight* heights = nullptr;
     /// What the layer `terrain` is made of, where the user says it.
     std::shared_ptr<const GroundMap> map = nullptr;
+    /// What overlays drape over it, by their number of a file; it takes half of cache_bytes. At most
+    /// kMostDrapes.
+    Drapes drapes = {};
+    static constexpr std::size_t kMostDrapes = 4;
     /// Called once for each block that cannot be read, on the thread that draws.
     std::function<void(const std::string&)> report = [](const std::string&) {};
 };

@@ -36,7 +36,8 @@ int slot_count(const GroundData& data) {
     GLint layers = 0;
     glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &layers);
     const std::uint64_t all = GroundPages::count(data.pyramid->frame(), data.pyramid->top());
-    const std::size_t cache = lod::texels_in(data.cache_bytes, free_graphics_memory());
+    const std::size_t cache =
+        lod::texels_in(data.cache_bytes, free_graphics_memory()) / (data.drapes.empty() ? 1 : 2);
     const std::uint64_t in_cache = cache / page_bytes(data.facts);
     const auto most = static_cast<std::uint64_t>(std::min(layers, PageTable::kMostSlots));
     return static_cast<int>(std::max<std::uint64_t>(std::min({all, in_cache, most}), 1));

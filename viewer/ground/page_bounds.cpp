@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -40,12 +42,49 @@ PageBounds::PageBounds(const geo::GridFrame& frame, const geo::PostPositions& po
       middle_m_(0.5 * (facts.lowest_m + facts.highest_m)),
       half_range_m_(0.5 * (facts.highest_m - facts.lowest_m)) {}
 
+PageBounds::PageBounds(const geo::GridFrame& frame, const geo::PostPositions& positions,
+                       const lod::UndulationGrid& undulations, const GroundFacts& facts, int finer,
+                       lod::Raster<float> some, int apart)
+    : PageBounds(frame, positions, undulations, facts) {
+    finer_ = finer;
+    some_ = std::move(some);
+    apart_ = apart;
+}
+
+void PageBounds::set_heights(Bare& made, int west, int north, int east, int south) const {
+    made.middle_m = middle_m_;
+    made.half_range_m = half_range_m_;
+    if (some_.samples().empty()) return;
+    const double lowest = middle_m_ - half_range_m_;
+    const double highest = middle_m_ + half_range_m_;
+    double low = highest;
+    double high = lowest;
+    for (int row = north >> apart_; row <= std::min((south >> apart_) + 1, some_.rows() - 1); ++row) {
+        for (int column = west >> apart_; column <= std::min((east >> apart_) + 1, some_.columns() - 1);
+             ++column) {
+            const auto H = static_cast<double>(some_.at(column, row));
+            if (std::isnan(H)) continue;
+            low = std::min(low, H);
+            high = std::max(high, H);
+        }
+    }
+    if (low > high) low = high = lowest;  // nothing but voids
+    const double range = high - low;
+    low = std::max(low - range, lowest);
+    high = std::min(high + range, highest);
+    made.middle_m = 0.5 * (low + high);
+    made.half_range_m = 0.5 * (high - low);
+}
+
 PageBounds::Bare PageBounds::bare(const Page& page) const {
-    const int side = kPageCells << page.level;
-    const int west = page.column * side;
-    const int north = page.row * side;
-    const int width = std::min(side, frame_.columns - 1 - west);
-    const int height = std::min(side, frame_.rows - 1 - north);
+    // The whole cells of the frame that the page is in.
+    const auto side = std::int64_t{kPageCells} << page.level;
+    const auto down = [&](std::int64_t at) { return static_cast<int>(at >> finer_); };
+    const auto up = [&](std::int64_t at) { return static_cast<int>(-((-at) >> finer_)); };
+    const int west = down(page.column * side);
+    const int north = down(page.row * side);
+    const int width = std::min(up((page.column + 1) * side), frame_.columns - 1) - west;
+    const int height = std::min(up((page.row + 1) * side), frame_.rows - 1) - north;
     Samples at;
     Bare made;
     for (int i = 0; i < kSamples; ++i) {
@@ -55,7 +94,8 @@ PageBounds::Bare PageBounds::bare(const Page& page) const {
             at[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)] =
                 positions_.at(column, row, undulations_.at(column, row));
             const auto spacing = frame_.spacing({static_cast<double>(column), static_cast<double>(row)});
-            made.spacing_m = std::max(made.spacing_m, std::min(spacing.column_m, spacing.row_m));
+            made.spacing_m =
+                std::max(made.spacing_m, std::ldexp(std::min(spacing.column_m, spacing.row_m), -finer_));
         }
     }
     made.centre = at[kSamples / 2][kSamples / 2];
@@ -65,6 +105,7 @@ PageBounds::Bare PageBounds::bare(const Page& page) const {
             made.radius_m = std::max(made.radius_m, glm::distance(p, made.centre));
     }
     made.radius_m += bulge(at);
+    set_heights(made, west, north, west + width, north + height);
     return made;
 }
 
@@ -74,10 +115,10 @@ PageBounds::Bounds PageBounds::of(const Page& page, double exaggeration) const {
     const Bare& surface = found->second;
     // Normals spread upwards: by the angle between them, at most the distance over the axis' smaller radius
     // of curvature.
-    const double middle = exaggeration * middle_m_;
-    const double spread = 1 + (std::abs(middle) + exaggeration * half_range_m_) / 6.3e6;
-    return {surface.centre + middle * surface.up, spread * surface.radius_m + exaggeration * half_range_m_,
-            surface.spacing_m};
+    const double middle = exaggeration * surface.middle_m;
+    const double half_range = exaggeration * surface.half_range_m;
+    const double spread = 1 + (std::abs(middle) + half_range) / 6.3e6;
+    return {surface.centre + middle * surface.up, spread * surface.radius_m + half_range, surface.spacing_m};
 }
 
 }  // namespace relevo::viewer

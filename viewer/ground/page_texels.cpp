@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "viewer/ground/height_code.hpp"
+
 namespace relevo::viewer {
 
 namespace {
@@ -27,8 +29,7 @@ PageTexels page_texels(const Page& page, const lod::GroundPosts& posts, const ge
                        const GroundFacts& facts) {
     const int last_column = last_inside(page.column, page.level, frame.columns, posts.heights.columns());
     const int last_row = last_inside(page.row, page.level, frame.rows, posts.heights.rows());
-    const double middle = 0.5 * (facts.lowest_m + facts.highest_m);
-    const double scale = 32767 / std::max(0.5 * (facts.highest_m - facts.lowest_m), 1e-6);
+    const HeightCode code = height_code(facts);
 
     PageTexels made;
     made.posts.resize(kPosts);
@@ -40,9 +41,8 @@ PageTexels page_texels(const Page& page, const lod::GroundPosts& posts, const ge
         PageTexels::Post* out = made.posts.data() + static_cast<std::ptrdiff_t>(row) * kPagePosts;
         for (int column = 0; column <= last_column; ++column) {
             if (std::isnan(heights[column])) continue;
-            const double H = (static_cast<double>(heights[column]) - middle) * scale;
             out[column] = {normals[column][0], normals[column][1],
-                           static_cast<std::int16_t>(std::lround(std::clamp(H, -32767.0, 32767.0))), 32767};
+                           code.of(static_cast<double>(heights[column])), 32767};
         }
         std::fill(out + last_column + 1, out + kPagePosts, out[last_column]);
         if (!facts.has_sea) continue;

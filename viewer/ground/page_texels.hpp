@@ -16,7 +16,7 @@ namespace relevo::viewer {
 /// and whether there is one. All are 16-bit and multiplied by the validity (0 or 1), so that filters average
 /// valid posts alone. Beyond the data its edge goes on, for the last cells of coarse levels reach over it.
 struct PageTexels {
-    /// Normal along row and up column; H from -1 (lowest) to 1 (highest); validity.
+    /// Normal along row and up column; H as height_code.hpp has it; validity.
     using Post = std::array<std::int16_t, 4>;
 
     /// 255 or 0: is it of the class sea? Is it land no higher than kSeaLevel?

@@ -233,7 +233,7 @@ MeshBuffers& Ocean::buffers(OceanKind kind) {
 Result<GlName> Ocean::program(const Variant& variant) {
     if (const auto known = programs_.find(variant); known != programs_.end()) return known->second.name();
     std::string defines =
-        fmt::format("#define TOP_LEVEL {}\n", ground_->top()) + shore_defines(ground_->facts());
+        fmt::format("#define TOP_LEVEL {}\n", ground_->top()) + height_defines(ground_->facts());
     if (variant.fill) defines += "#define FILL\n";
     if (ground_->facts().has_voids) defines += "#define VOIDS\n";
     if (variant.shore) defines += "#define SHORE\n";

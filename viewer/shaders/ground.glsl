@@ -1,6 +1,6 @@
 // The ground's pages: of each level of detail squares of 256 cells, as far as the picture wants them. Level k has every
 // 2^k-th post; pages share the posts on their borders, so that bilinear filters stay inside one.
-layout(binding = 0) uniform sampler2DArray posts;   // normal along row and up column, H from -1 to 1, validity; all times it
+layout(binding = 0) uniform sampler2DArray posts;   // normal along row and up column, H (viewer/ground/height_code.hpp), validity; all times it
 layout(binding = 1) uniform usampler2DArray cells;  // 0 where a cell has a void corner
 layout(binding = 3) uniform sampler2DArray shore;   // 1 at posts that are sea; 1 at land no higher than that
 // For each page of each level, from the one of the coarsest, the finest one that is there: its layer in 12 bits, its

@@ -11,6 +11,9 @@ in Surface {
 #ifdef SUN_FIXED
     vec3 sun;
 #endif
+#ifdef GRATICULE
+    vec2 from_anchor;
+#endif
 #ifdef COVER
     vec4 cover;
 #endif
@@ -27,6 +30,9 @@ vec3 ramp_colour(float at, float row) {
     float texels = float(textureSize(ramp, 0).x);
     return texture(ramp, vec2((clamp(at, 0.0, 1.0) * (texels - 1.0) + 0.5) / texels, 0.25 + 0.5 * row)).rgb;
 }
+
+// From the data's lowest to its highest, 0 to 1.
+float height_of(vec4 post) { return (post.z * SCENE_HALF + (SCENE_MIDDLE - SCENE_LOWEST)) / SCENE_RANGE; }
 
 // Coarse to fine: a polynomial fit of the Turbo colour map (A. Mikhailov, Google, 2019). Most of what is seen is fine:
 // the power gives its levels more of the colours.
@@ -58,15 +64,29 @@ void main() {
     vec2 x = abs(dFdx(surface.grid));
     vec2 y = abs(dFdy(surface.grid));
     ivec2 cell = cell_at(surface.grid);
-    PagePlace place = page_place(surface.grid, cell, max(max(x.x, y.x), max(x.y, y.y)));
-#if defined(TINTED_SEA) || defined(SHORE)
+    float apart = max(max(x.x, y.x), max(x.y, y.y));
+    PagePlace place = page_place(surface.grid, cell, apart);
+#if defined(TINTED_SEA) || defined(SHORE) || defined(DRY_LINES)
     float share = at_place(shore, place).r;
 #endif
-#ifdef TINTED_SEA
+#if defined(TINTED_SEA) || defined(DRY_LINES)
     // The waterline is half way between a post of land and one of sea, and a pixel wide.
     float water = smoothstep(-0.7, 0.7, (share - 0.5) / max(fwidth(share), 1e-4));
 #endif
     vec4 here = at_place(posts, place);
+#ifdef CONTOURS
+    // Of texels and not metres: a float has no more than 24 bits, and heights of mountains leave few for centimetres.
+    float height = here.z / max(here.a, 1e-3);
+    float height_slope = slope_of(height);
+#endif
+#ifdef GRATICULE
+    vec2 graticule = graticule_at(surface.from_anchor);
+#ifdef POLE
+    if (GRATICULE.y > 0.0)
+        graticule = polar_graticule_at(frame.place.xy + surface.grid.yx * frame.place.zw, GRATICULE.yz);
+#endif
+    vec2 graticule_slope = graticule_slopes(graticule);
+#endif
 #ifdef VOIDS
     if (!is_whole(cell, min(max(x.x, x.y), max(y.x, y.y)))) discard;
     here /= max(here.a, 1e-3);
@@ -88,9 +108,9 @@ void main() {
 
 #if LAYER == 0  // hypsometric
 #ifdef TINTED_SEA
-    vec3 tint = mix(ramp_colour(0.5 + 0.5 * here.z, 0.0), ramp_colour(0.5 + 0.5 * here.z, 1.0), water);
+    vec3 tint = mix(ramp_colour(height_of(here), 0.0), ramp_colour(height_of(here), 1.0), water);
 #else
-    vec3 tint = ramp_colour(0.5 + 0.5 * here.z, 0.0);
+    vec3 tint = ramp_colour(height_of(here), 0.0);
 #endif
     vec3 shown = tint * relief;
     float hazed = surface.haze;
@@ -103,6 +123,15 @@ void main() {
     float hazed = 0.0;
 #elif LAYER == 3  // lod
     vec3 shown = mix(vec3(0.5), level_colour(surface.level), 0.75) * (0.35 + 0.65 * relief);
+    float hazed = 0.0;
+#elif LAYER == 6  // aspect: of the true ground, from north over east; flat ground has none
+    float azimuth = atan(true_normal.x, true_normal.y);
+#ifdef POLE
+    vec2 in_plane = frame.place.xy + surface.grid.yx * frame.place.zw;
+    azimuth += POLE * atan(in_plane.y, in_plane.x);
+#endif
+    float flatness = 1.0 - smoothstep(0.5, 2.0, degrees(acos(clamp(true_normal.z, 0.0, 1.0))));
+    vec3 shown = mix(ramp_colour(fract(azimuth / 6.2831853), 0.0), vec3(0.80), flatness);
     float hazed = 0.0;
 #elif defined(COVER)
     // Along the ground pixels are long. By their length all would be blurred, by their width it would flicker. Nor may
@@ -120,7 +149,7 @@ void main() {
 #endif
     float slope = degrees(acos(clamp(true_normal.z, 0.0, 1.0)));
 #ifdef GROUND_MAP
-    vec4 given = mapped_weights(surface.grid, max(max(x.x, y.x), max(x.y, y.y)));
+    vec4 given = mapped_weights(surface.grid, apart);
 #else
     const vec4 given = vec4(0.0);
 #endif
@@ -136,6 +165,15 @@ void main() {
     shown = mix(shown, water_colour(H, sun.z), water);
 #endif
     float hazed = surface.haze;
+#endif
+#ifdef OVERLAYS
+#ifdef DRY_LINES
+    float dry = 1.0 - water;
+#else
+    const float dry = 1.0;
+#endif
+    float bright = brightness(shown);
+    OVERLAYS
 #endif
     // The ground from below. Only where the eye can be there: seen from above, a sliver on a ridge may turn its back by
     // rounding.

@@ -20,6 +20,9 @@ in Surface {
 #ifdef SUN_FIXED
     vec3 sun;
 #endif
+#ifdef GRATICULE
+    vec2 from_anchor;
+#endif
 #ifdef COVER
     vec4 cover;
 #endif
@@ -32,6 +35,9 @@ out WiredSurface {
     flat float level;
 #ifdef SUN_FIXED
     vec3 sun;
+#endif
+#ifdef GRATICULE
+    vec2 from_anchor;
 #endif
 #ifdef COVER
     vec4 cover;
@@ -50,6 +56,9 @@ void main() {
         surface.level = corner[2].level;
 #ifdef SUN_FIXED
         surface.sun = corner[i].sun;
+#endif
+#ifdef GRATICULE
+        surface.from_anchor = corner[i].from_anchor;
 #endif
 #ifdef COVER
         surface.cover = corner[i].cover;

@@ -16,6 +16,9 @@ out Surface {
 #ifdef SUN_FIXED
     vec3 sun;  // along the grid's row, up its column, and up: it turns as the ground curves
 #endif
+#ifdef GRATICULE
+    vec2 from_anchor;  // in units of the graticule's reach
+#endif
 #ifdef COVER
     vec4 cover;  // metres from the cover's anchor; H of the snow line; how much towards the sun
 #endif
@@ -96,6 +99,9 @@ void main() {
     float rise = dot(offset, frame.eye_up.xyz);
     float sinking = (way * way - rise * rise) / (2.0 * 6371000.0);
     surface.haze = haze(way, frame.eye_up.w, frame.eye_up.w + rise + sinking);
+#ifdef GRATICULE
+    surface.from_anchor = (at - overlays.anchor.xy) * overlays.anchor.zw;
+#endif
 #ifdef COVER
 #ifdef POLE
     vec2 in_plane = frame.place.xy + at.yx * frame.place.zw;

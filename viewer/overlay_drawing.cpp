@@ -1,0 +1,162 @@
+#include "viewer/overlay_drawing.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include "viewer/overlay_block.hpp"
+
+namespace relevo::viewer {
+
+namespace {
+
+constexpr GLuint kOverlaysBinding = 5;  // as in shaders/overlays.glsl
+
+bool is_draped(Overlay::Kind kind) {
+    return kind == Overlay::Kind::imagery || kind == Overlay::Kind::vectors;
+}
+
+}  // namespace
+
+std::vector<DrawnOverlay> drawn_overlays(const DrawSettings& settings, std::size_t drapes) {
+    std::vector<DrawnOverlay> drawn;
+    if (settings.layer == Layer::plain) return drawn;
+    for (const Overlay& overlay : settings.overlays) {
+        const bool of_file = is_draped(overlay.kind);
+        // What is not there still counts: numbers in the block are those in the settings.
+        const bool there = !of_file || static_cast<std::size_t>(overlay.file) < drapes;
+        drawn.push_back({overlay.kind, there ? overlay.file : -1});
+    }
+    return drawn;
+}
+
+std::string overlay_defines(const std::vector<DrawnOverlay>& overlays, std::size_t drapes) {
+    std::string once;
+    std::string drawing;
+    for (std::size_t i = 0; i < overlays.size(); ++i) {
+        if (overlays[i].kind == Overlay::Kind::contours) {
+            if (once.find("CONTOURS") == std::string::npos) once += "#define CONTOURS\n";
+            drawing += fmt::format(
+                " shown = with_contours(shown, bright, overlays.drawn[{}], height, height_slope, dry);", i);
+        }
+        if (overlays[i].kind == Overlay::Kind::graticule) {
+            once += fmt::format("#define GRATICULE overlays.drawn[{}]\n", i);
+            drawing += " shown = with_graticule(shown, bright, GRATICULE, graticule, graticule_slope);";
+        }
+        if (is_draped(overlays[i].kind) && overlays[i].file >= 0)
+            drawing += fmt::format(
+                " shown = with_drape(shown, overlays.drawn[{0}], drape_at(drape_{1}, drape_table_{1}, "
+                "overlays.drawn[{0}], surface.grid, apart)); bright = brightness(shown);",
+                i, overlays[i].file);
+    }
+    const bool any_draped = std::any_of(overlays.begin(), overlays.end(), [](const DrawnOverlay& overlay) {
+        return is_draped(overlay.kind) && overlay.file >= 0;
+    });
+    if (any_draped) once += fmt::format("#define DRAPES {}\n", drapes);
+    return once + "#define OVERLAYS" + drawing + "\n";
+}
+
+OverlayDrawing::OverlayDrawing(const lod::Terrain& terrain, const GroundData& data)
+    : terrain_(&terrain),
+      scale_(terrain),
+      code_(height_code(data.facts)),
+      block_(GlBuffer::create()),
+      data_(data) {
+    glNamedBufferStorage(block_.name(), sizeof(OverlayBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
+}
+
+Result<void> OverlayDrawing::provide(const DrawSettings& settings) {
+    for (const auto& [kind, file] : drawn_overlays(settings, data_.drapes.size())) {
+        if (!is_draped(kind) || file < 0 || drapes_.count(file) != 0) continue;
+        auto made = DrapeTextures::create(*terrain_, data_, data_.drapes[static_cast<std::size_t>(file)],
+                                          data_.cache_bytes / 2 / data_.drapes.size());
+        if (!made) return made.error();
+        drapes_.emplace(file, *std::move(made));
+    }
+    return {};
+}
+
+Result<void> OverlayDrawing::complete(const DrawSettings& settings, const Sight& sight) {
+    for (const auto& [kind, file] : drawn_overlays(settings, data_.drapes.size())) {
+        if (!is_draped(kind) || file < 0) continue;
+        if (auto done = drapes_.at(file).complete(sight, settings.exaggeration); !done) return done;
+    }
+    return {};
+}
+
+std::size_t OverlayDrawing::pending() const {
+    std::size_t sum = 0;
+    for (const int file : drawn_) sum += drapes_.at(file).pending();
+    return sum;
+}
+
+bool OverlayDrawing::fits(const DrawSettings& settings, const Sight& sight) const {
+    for (const auto& [kind, file] : drawn_overlays(settings, data_.drapes.size())) {
+        const auto drape = drapes_.find(file);
+        if (is_draped(kind) && drape != drapes_.end() && !drape->second.fits(sight, settings.exaggeration))
+            return false;
+    }
+    return true;
+}
+
+OverlayDrawing::DrapeFigures OverlayDrawing::figures(int file) const {
+    const auto drape = drapes_.find(file);
+    if (drape == drapes_.end()) return {};
+    return {drape->second.tiles(), DrapeTextures::kGlObjects, drape->second.bytes()};
+}
+
+void OverlayDrawing::update(const lod::View& view, const DrawSettings& settings, const Sight& sight) {
+    drawn_.clear();
+    for (const auto& [kind, file] : drawn_overlays(settings, data_.drapes.size())) {
+        if (is_draped(kind) && file >= 0) drawn_.push_back(file);
+    }
+    for (const int file : drawn_) drapes_.at(file).update(sight, settings.exaggeration);
+    assert(settings.overlays.size() <= kMostOverlays);
+    contour_interval_m_.reset();
+    graticule_.reset();
+    const double pixel_m = scale_.pixel_m(view, settings.exaggeration);
+    OverlayBlock block{};
+    for (std::size_t i = 0; i < settings.overlays.size(); ++i) {
+        const Overlay& overlay = settings.overlays[i];
+        block.drawn[i].x = static_cast<float>(overlay.opacity);
+        if (const auto drape = drapes_.find(overlay.file);
+            is_draped(overlay.kind) && drape != drapes_.end()) {
+            block.drawn[i].y = static_cast<float>(drape->second.top());
+            block.drawn[i].z = static_cast<float>(1 << drape->second.finer());
+            block.drawn[i].w = drape->second.is_lines() ? 1 : 0;
+        }
+        if (overlay.kind == Overlay::Kind::contours) {
+            contour_interval_m_ = overlay.interval_m > 0 ? overlay.interval_m : contour_interval(pixel_m);
+            const auto scale = contour_scale(code_, *contour_interval_m_);
+            block.drawn[i].y = scale[0];
+            block.drawn[i].z = scale[1];
+        }
+        if (overlay.kind == Overlay::Kind::graticule) {
+            const geo::GridFrame& grid = terrain_->frame();
+            const geo::LatLon below{view.camera().eye.lat, view.camera().eye.lon};
+            graticule_ = suitable_graticule(overlay.utm, below, pixel_m);
+            if (grid.is_polar() && !overlay.utm) {
+                constexpr double kDegrees = 180 / 3.14159265358979323846;
+                block.drawn[i].y = static_cast<float>(kDegrees / graticule_->interval.x);
+                block.drawn[i].z = static_cast<float>(kDegrees / graticule_->interval.y);
+                continue;
+            }
+            const GraticuleTerms terms = graticule_terms(*graticule_, grid, below);
+            block.anchor = glm::vec4(terms.anchor, 1.0 / terms.reach);
+            for (std::size_t k = 0; k < terms.terms.size(); ++k)
+                block.terms[k] = glm::vec4(glm::vec2(terms.terms[k]), 0, 0);
+        }
+    }
+    glNamedBufferSubData(block_.name(), 0, sizeof(block), &block);
+}
+
+void OverlayDrawing::bind() const {
+    for (const int file : drawn_) drapes_.at(file).bind(file);
+
+    glBindBufferBase(GL_UNIFORM_BUFFER, kOverlaysBinding, block_.name());
+}
+
+}  // namespace relevo::viewer

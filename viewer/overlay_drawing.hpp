@@ -1,0 +1,82 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lod/terrain.hpp"
+#include "lod/view.hpp"
+#include "viewer/draw_settings.hpp"
+#include "viewer/gl_object.hpp"
+#include "viewer/graticule.hpp"
+#include "viewer/ground/drape_textures.hpp"
+#include "viewer/ground/height_code.hpp"
+#include "viewer/ground_scale.hpp"
+
+namespace relevo::viewer {
+
+/// What makes the program of an overlay differ from that of another.
+struct DrawnOverlay {
+    Overlay::Kind kind;
+    int file;
+    friend auto operator<=>(const DrawnOverlay&, const DrawnOverlay&) = default;
+};
+
+/// Those of the settings that can be drawn: of imagery and vectors, whose file is there.
+std::vector<DrawnOverlay> drawn_overlays(const DrawSettings& settings, std::size_t drapes);
+
+/// What a terrain program needs to draw these over its layer: definitions of shaders/overlays.glsl.
+/// \param drapes  files that are draped
+std::string overlay_defines(const std::vector<DrawnOverlay>& overlays, std::size_t drapes);
+
+/// What shaders/overlays.glsl reads. It is made for the first picture that has overlays.
+class OverlayDrawing {
+  public:
+    /// \pre a context is current. The terrain must outlive this.
+    OverlayDrawing(const lod::Terrain& terrain, const GroundData& data);
+
+    /// Makes what the settings' files need. Fails where one cannot be read.
+    Result<void> provide(const DrawSettings& settings);
+
+    /// Sets what a picture needs; what is draped comes in the background.
+    /// \pre provide
+    void update(const lod::View& view, const DrawSettings& settings, const Sight& sight);
+
+    /// Waits for what is draped. \pre provide
+    Result<void> complete(const DrawSettings& settings, const Sight& sight);
+
+    /// Pages that the last picture wanted and that are not there yet.
+    std::size_t pending() const;
+
+    /// Is there room for all that is draped?
+    bool fits(const DrawSettings& settings, const Sight& sight) const;
+
+    /// Of each file, those made so far.
+    struct DrapeFigures {
+        std::uint64_t tiles = 0;
+        int gl_objects = 0;
+        std::size_t bytes = 0;
+    };
+    DrapeFigures figures(int file) const;
+
+    /// Binds all to where the shader says.
+    void bind() const;
+
+    /// Of the last picture.
+    std::optional<double> contour_interval_m() const { return contour_interval_m_; }
+    const std::optional<Graticule>& graticule() const { return graticule_; }
+
+  private:
+    const lod::Terrain* terrain_;
+    GroundScale scale_;
+    HeightCode code_;
+    GlBuffer block_;
+    GroundData data_;
+    std::map<int, DrapeTextures> drapes_;  // by file; of those that have been drawn
+    std::vector<int> drawn_;               // files of the last picture
+    std::optional<double> contour_interval_m_;
+    std::optional<Graticule> graticule_;
+};
+
+}  // namespace relevo::viewer
