@@ -10,6 +10,7 @@
 #include "app/command.hpp"
 #include "app/drape_flags.hpp"
 #include "app/ground_map_flag.hpp"
+#include "app/render_frames.hpp"
 #include "app/view_flags.hpp"
 #include "viewer/bench/machine.hpp"
 #include "viewer/numbers.hpp"
@@ -22,7 +23,8 @@ namespace {
 struct RenderFlags {
     std::string scene;
     std::string output;
-    std::optional<std::string> background;
+    std::optional<std::string> background, play;
+    double fps = 30;
     bool measure_error = false;
     ViewFlags view;
     BudgetFlags budget;  // the number of triangles alone: a still picture takes its time
@@ -107,6 +109,27 @@ void print(const viewer::ViewState& view, const viewer::PictureRequest& request,
     fmt::print("by {}\n--at {}\n", figures.gl, to_string(view));
 }
 
+Result<void> draw_frames(const RenderFlags& flags, const lod::Terrain& terrain,
+                         const viewer::GroundData& ground, const viewer::EyeHeight& heights,
+                         FrameRequest request) {
+    auto painter = viewer::OffscreenPainter::create(terrain, ground, heights);
+    if (!painter) return painter.error();
+    request.picture.timed = false;
+    const auto frames = render_frames(request, *painter, progress_bar(flags.common, "drawing"));
+    if (!frames) return frames.error();
+    if (flags.common.json) {
+        fmt::print("{}\n", nlohmann::json({{"pictures", flags.output},
+                                           {"frames", *frames},
+                                           {"fps", request.fps},
+                                           {"width", request.picture.width},
+                                           {"height", request.picture.height}})
+                               .dump(2));
+    } else {
+        fmt::print("{}: {} frames, {:.3g} a second\n", flags.output, *frames, request.fps);
+    }
+    return {};
+}
+
 Result<void> run(const RenderFlags& flags) {
     // Everything that the command line got wrong is said before the scene is read.
     auto view = read_view(flags.view, {});
@@ -121,6 +144,18 @@ Result<void> run(const RenderFlags& flags) {
     if (!background) return background.error();
     if (auto known = viewer::check_picture_name(flags.output); !known) return known;
 
+    std::optional<viewer::FlightPath> play;
+    if (flags.play) {
+        if (!(flags.fps >= 0.01 && flags.fps <= 1000)) return Error{ErrorKind::usage, "--fps: 0.01 to 1000"};
+        if (flags.measure_error)
+            return Error{ErrorKind::usage, "--measure-error is of a single picture, not of a flight's"};
+        if (const auto name = frame_name(flags.output, 0); !name) return name.error();
+        auto read = viewer::FlightPath::load(*flags.play);
+        if (!read) return read.error();
+        play = *std::move(read);
+        put(*view, play->keys().front());
+    }
+
     const lod::CacheSizes sizes = lod::cache_sizes(lod::find_memory(), flags.view.memory);
     const auto tiles = tile_options(sizes, 0);
     if (!tiles) return tiles.error();
@@ -133,7 +168,7 @@ Result<void> run(const RenderFlags& flags) {
         if (auto done = provide_chunks(*scene, *terrain, flags.common); !done) return done;
     }
     const viewer::EyeHeight heights(scene->geoid());
-    place_view(*view, flags.view, *scene, *terrain, heights, *size);
+    if (!play) place_view(*view, flags.view, *scene, *terrain, heights, *size);
 
     const auto map = read_ground_map(flags.view.ground_map, terrain->frame());
     if (!map) return map.error();
@@ -152,6 +187,9 @@ Result<void> run(const RenderFlags& flags) {
                                          .background = *background,
                                          .measure_error = flags.measure_error,
                                          .max_triangles = budget->triangles};
+    if (play)
+        return draw_frames(flags, *terrain, ground, heights,
+                           {flags.output, *play, flags.fps, *view, request});
     const auto finished = viewer::draw_picture(*terrain, ground, heights, *view, request);
     if (!finished) return finished.error();
     if (auto done = viewer::write_picture(finished->picture, flags.output, to_string(*view)); !done)
@@ -179,6 +217,11 @@ void add_render(CLI::App& program, Action& action) {
     add_view_flags(*command, flags->view);
     add_drape_flags(*command, flags->view);
     add_max_triangles_flag(*command, flags->budget);
+    command
+        ->add_option("--play", flags->play,
+                     "Draw the frames of a flight; the picture's name then has a %05d for their numbers")
+        ->type_name("FLIGHT");
+    command->add_option("--fps", flags->fps, "Frames a second of the flight")->capture_default_str();
     command
         ->add_option("--background", flags->background,
                      "A flat colour instead of sky and haze, 0 to 255 each")

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "lod/soar/pick.hpp"
 #include "viewer/camera.hpp"
 #include "viewer/frame_budget.hpp"
 #include "viewer/gl_check.hpp"
-#include "viewer/gl_context_egl.hpp"
-#include "viewer/mesher.hpp"
-#include "viewer/renderer.hpp"
 
 namespace relevo::viewer {
 
@@ -71,18 +69,44 @@ bool ground_must_show(const lod::Terrain& terrain, const lod::View& view, const 
     return false;
 }
 
-Result<FinishedPicture> draw_picture(const lod::Terrain& terrain, const GroundData& ground,
-                                     const EyeHeight& heights, const ViewState& asked,
-                                     const PictureRequest& request) {
-    const auto context = OffscreenContext::create();
+OffscreenPainter::OffscreenPainter(std::optional<OffscreenContext> context, Renderer renderer,
+                                   const lod::Terrain& terrain, const EyeHeight& heights)
+    : context_(std::move(context)),
+      renderer_(std::move(renderer)),
+      mesher_(std::make_unique<Mesher>(terrain)),
+      terrain_(terrain),
+      heights_(heights) {}
+
+Result<OffscreenPainter> OffscreenPainter::create(const lod::Terrain& terrain, const GroundData& ground,
+                                                  const EyeHeight& heights) {
+    auto context = OffscreenContext::create();
     if (!context) return context.error();
     auto renderer = Renderer::create(terrain, ground);
     if (!renderer) return renderer.error();
+    return OffscreenPainter(*std::move(context), *std::move(renderer), terrain, heights);
+}
+
+Result<OffscreenPainter> OffscreenPainter::create_here(const lod::Terrain& terrain, const GroundData& ground,
+                                                       const EyeHeight& heights) {
+    auto renderer = Renderer::create(terrain, ground);
+    if (!renderer) return renderer.error();
+    return OffscreenPainter(std::nullopt, *std::move(renderer), terrain, heights);
+}
+
+Result<FinishedPicture> draw_picture(const lod::Terrain& terrain, const GroundData& ground,
+                                     const EyeHeight& heights, const ViewState& view,
+                                     const PictureRequest& request) {
+    auto painter = OffscreenPainter::create(terrain, ground, heights);
+    if (!painter) return painter.error();
+    return painter->draw(view, request);
+}
+
+Result<FinishedPicture> OffscreenPainter::draw(const ViewState& asked, const PictureRequest& request) {
     ViewState state = asked;
-    const lod::View view(camera_of(state, heights, request.width, request.height));
+    const lod::View view(camera_of(state, heights_, request.width, request.height));
     DrawSettings settings = draw_settings(state);
     settings.background = request.background;
-    const int side = tile_side(*renderer, view, settings, request);
+    const int side = tile_side(renderer_, view, settings, request);
     const auto target =
         RenderTarget::create(std::min(request.width, side), std::min(request.height, side), request.samples);
     if (!target) return target.error();
@@ -94,38 +118,39 @@ Result<FinishedPicture> draw_picture(const lod::Terrain& terrain, const GroundDa
 
     // Once for nothing: what is measured below shall not be the making of buffers and the compiling of
     // shaders.
-    Mesher mesher(terrain);
     if (request.max_triangles && state.method != Method::full) {
         std::optional<Error> failure;
         state.tau_px = tau_for_triangles(*request.max_triangles, asked.tau_px, [&](double tau_px) {
             state.tau_px = tau_px;
-            const auto tried = mesher.whole_mesh(view, state);
+            const auto tried = mesher_->whole_mesh(view, state);
             if (!tried) failure = tried.error();
             return tried ? (*tried)->triangles() : 0;
         });
         if (failure) return *failure;
     }
     figures.tau_reached_px = state.tau_px;
-    const auto first = mesher.whole_mesh(view, state);
+    const auto first = mesher_->whole_mesh(view, state);
     if (!first) return first.error();
-    renderer->upload(**first);
-    if (auto done = renderer->complete(view, settings, part(0, 0)); !done) return done.error();
-    if (auto done = renderer->draw(view, settings, *target, {}, false); !done) return done.error();
-    gl_finish();
+    if (request.timed) {
+        renderer_.upload(**first);
+        if (auto done = renderer_.complete(view, settings, part(0, 0)); !done) return done.error();
+        if (auto done = renderer_.draw(view, settings, *target, {}, false); !done) return done.error();
+        gl_finish();
+    }
 
     const Stopwatch frame;
-    const lod::Mesh& mesh = mesher.mesh(view, state);  // all that it needs is there
+    const lod::Mesh& mesh = mesher_->mesh(view, state);  // all that it needs is there
     figures.refine_ms = frame.ms();
     figures.triangles = mesh.triangles();
-    renderer->upload(mesh);
+    renderer_.upload(mesh);
     bool ground_seen = false;
     double loading_ms = 0;
     for (int y = 0; y < request.height; y += target->height()) {
         for (int x = 0; x < request.width; x += target->width()) {
             const Stopwatch loading;
-            if (auto done = renderer->complete(view, settings, part(x, y)); !done) return done.error();
+            if (auto done = renderer_.complete(view, settings, part(x, y)); !done) return done.error();
             loading_ms += loading.ms();
-            const auto drawn = renderer->draw(view, settings, *target, {x, y}, true);
+            const auto drawn = renderer_.draw(view, settings, *target, {x, y}, true);
             if (!drawn) return drawn.error();
             figures.draw_calls += drawn->draw_calls;
             figures.ocean.add(drawn->ocean);
@@ -135,16 +160,16 @@ Result<FinishedPicture> draw_picture(const lod::Terrain& terrain, const GroundDa
     }
     for (const Overlay& overlay : settings.overlays) {
         const bool of_file = overlay.kind == Overlay::Kind::imagery || overlay.kind == Overlay::Kind::vectors;
-        const auto drape = of_file ? renderer->drape_figures(overlay.file) : OverlayDrawing::DrapeFigures{};
+        const auto drape = of_file ? renderer_.drape_figures(overlay.file) : OverlayDrawing::DrapeFigures{};
         figures.overlays.push_back({overlay, drape.tiles, drape.gl_objects, drape.bytes});
     }
     figures.frame_ms = frame.ms() - loading_ms;
     if (auto done = gl_check("reading the picture"); !done) return done.error();
-    if (!ground_seen && ground_must_show(terrain, view, state)) {
+    if (!ground_seen && ground_must_show(terrain_, view, state)) {
         return Error{ErrorKind::internal, "the ground is in view, but not one of its pixels was drawn (" +
                                               figures.gl + "); nothing was written"};
     }
-    if (request.measure_error) figures.error = lod::measure_error(terrain, view, mesh, state.exaggeration);
+    if (request.measure_error) figures.error = lod::measure_error(terrain_, view, mesh, state.exaggeration);
     return made;
 }
 

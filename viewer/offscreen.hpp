@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,9 +11,12 @@
 #include "lod/oracle.hpp"
 #include "lod/terrain.hpp"
 #include "viewer/eye_height.hpp"
+#include "viewer/gl_context_egl.hpp"
 #include "viewer/ground/ground_data.hpp"
+#include "viewer/mesher.hpp"
 #include "viewer/ocean/ocean.hpp"
 #include "viewer/picture.hpp"
+#include "viewer/renderer.hpp"
 #include "viewer/view_state.hpp"
 
 namespace relevo::viewer {
@@ -23,6 +27,7 @@ struct PictureRequest {
     int samples = 4;                                      ///< 1, 4 or 8 a pixel
     std::optional<std::array<float, 3>> background = {};  ///< flat, 0 to 1, instead of sky and haze
     bool measure_error = false;
+    bool timed = true;  ///< all is made and compiled before it is drawn, so that the figures have times
     std::optional<std::uint64_t> max_triangles =
         {};  ///< tau grows, up to FrameBudget's coarsest, to keep to it
 };
@@ -53,9 +58,33 @@ struct FinishedPicture {
     PictureFigures figures;
 };
 
-/// Draws one view off-screen, whole or not at all: waits for all of the ground that it wants, and fails where
-/// some of that is damaged, where OpenGL reports an error, or where ground that is in view left no pixel. A
-/// picture of any size is drawn in tiles of bounded memory.
+/// Draws views off-screen.
+class OffscreenPainter {
+  public:
+    /// In an OpenGL context of its own, which is current while it lives. All must outlive it.
+    static Result<OffscreenPainter> create(const lod::Terrain& terrain, const GroundData& ground,
+                                           const EyeHeight& heights);
+    /// In the context that is current, and stays so.
+    static Result<OffscreenPainter> create_here(const lod::Terrain& terrain, const GroundData& ground,
+                                                const EyeHeight& heights);
+
+    /// Draws one view, whole or not at all: waits for all of the ground that it wants, and fails where some
+    /// of that is damaged, where OpenGL reports an error, or where ground that is in view left no pixel. A
+    /// picture of any size is drawn in tiles of bounded memory.
+    Result<FinishedPicture> draw(const ViewState& view, const PictureRequest& request);
+
+  private:
+    OffscreenPainter(std::optional<OffscreenContext> context, Renderer renderer, const lod::Terrain& terrain,
+                     const EyeHeight& heights);
+
+    std::optional<OffscreenContext> context_;  // goes last
+    Renderer renderer_;
+    std::unique_ptr<Mesher> mesher_;
+    const lod::Terrain& terrain_;
+    const EyeHeight& heights_;
+};
+
+/// One picture by a painter of its own.
 Result<FinishedPicture> draw_picture(const lod::Terrain& terrain, const GroundData& ground,
                                      const EyeHeight& heights, const ViewState& view,
                                      const PictureRequest& request);

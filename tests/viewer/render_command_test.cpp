@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <fstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -103,6 +104,32 @@ TEST_F(RenderCommand, WritesPngJpegAndTiff) {
     }
     // And nothing else: no unfinished files.
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()), 5);
+}
+
+TEST_F(RenderCommand, DrawsTheFramesOfAFlightAndGoesOnWhereItWasStopped) {
+    const std::string flight = (folder_ / "over.flight").string();
+    std::ofstream(flight) << "relevo-flight 1\n"
+                             "0 35.97 138.01 6000 0 -90 0 30\n1 35.99 138.03 6000 0 -90 0 30\n";
+    const auto draw = [&](const std::string& name, const std::string& flags) {
+        return relevo(fmt::format("render {} -o '{}' --size 80x60 --play {} {}", scene_,
+                                  (folder_ / name).string(), flight, flags));
+    };
+    const auto run = draw("frames/%04d.png", "--fps 4 --json");
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(nlohmann::json::parse(run.out)["frames"], 5);
+    for (int i = 0; i < 5; ++i) EXPECT_TRUE(fs::exists(folder_ / fmt::format("frames/000{}.png", i)));
+    EXPECT_FALSE(fs::exists(folder_ / "frames/0005.png"));
+    EXPECT_NE(contents(folder_ / "frames/0000.png"), contents(folder_ / "frames/0004.png"));
+    // A frame is the picture that its view string gives.
+    fs::remove(folder_ / "frames/0002.png");
+    const auto untouched = fs::last_write_time(folder_ / "frames/0003.png");
+    ASSERT_EQ(draw("frames/%04d.png", "--fps 4").status, 0);
+    EXPECT_TRUE(fs::exists(folder_ / "frames/0002.png"));
+    EXPECT_EQ(fs::last_write_time(folder_ / "frames/0003.png"), untouched);
+    for (const char* name : {"a.png", "%04d-%d.png", "%s.png", "%04d.gif"})
+        EXPECT_EQ(draw(name, "").status, 2) << name;
+    EXPECT_EQ(draw("%d.png", "--fps 0").status, 2);
+    EXPECT_EQ(draw("%d.png", "--measure-error").status, 2);
 }
 
 TEST_F(RenderCommand, RefusesWhatMakesNoSense) {
