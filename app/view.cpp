@@ -4,10 +4,12 @@
 #include <optional>
 #include <string>
 
+#include "output/measurement_file.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "app/command.hpp"
+#include "app/drape_flags.hpp"
 #include "app/ground_map_flag.hpp"
 #include "app/quick_import.hpp"
 #include "app/view_flags.hpp"
@@ -68,6 +70,23 @@ Result<void> check(const WindowFlags& flags) {
 /// Ctrl-C while recording closes the window, so that what was flown is kept.
 volatile std::sig_atomic_t interrupted = 0;
 
+viewer::MeasurementFiles measurement_files() {
+    const auto save = [](const std::vector<viewer::Shape>& shapes,
+                         const std::vector<const viewer::ShapeResult*>& results,
+                         const std::filesystem::path& file) {
+        std::vector<output::MeasurementRecord> records;
+        for (std::size_t i = 0; i < shapes.size(); ++i) {
+            output::MeasurementRecord& record = records.emplace_back();
+            record.measurement = shapes[i].measurement;
+            if (results[i] == nullptr) continue;
+            record.H_m = results[i]->H_m;
+            record.results = results[i]->json;
+        }
+        return output::save_measurements(file, records, false);
+    };
+    return {output::is_measurement_file, output::load_measurements, save};
+}
+
 /// What the flags say of the view and of the flight, for whichever scene.
 struct Request {
     viewer::ViewState view;
@@ -103,6 +122,7 @@ Result<Request> read_request(const WindowFlags& flags) {
     request.flight.frames = flags.frames;
     request.flight.record = flags.record.value_or("");
     request.flight.output_folder = flags.screenshot_dir;
+    request.flight.files = measurement_files();
     return request;
 }
 
@@ -122,12 +142,15 @@ Result<viewer::FlightFigures> fly_over(viewer::Desk& desk, const lod::Scene& sce
 
     const auto map = read_ground_map(flags.view.ground_map, terrain->frame());
     if (!map) return map.error();
+    auto drapes = read_drapes(flags.view, terrain->frame(), request.view);
+    if (!drapes) return drapes.error();
     const viewer::GroundData ground{
         .pyramid = terrain->pyramid().get(),
         .facts = viewer::ground_facts(scene.info()),
         .cache_bytes = sizes.texel_bytes,
         .heights = &heights,
         .map = *map,
+        .drapes = *std::move(drapes),
         .report = [](const std::string& line) { fmt::print(stderr, "relevo view: {}\n", line); }};
     request.flight.chunks = {.store = {.memory_bytes = tiles->memory_bytes,
                                        .threads = tiles->threads,
@@ -218,6 +241,7 @@ void add_view(CLI::App& program, Action& action) {
                         "A scene, or an elevation file, which is imported first; without it one is chosen "
                         "in the window");
     add_view_flags(*command, flags->view);
+    add_drape_flags(*command, flags->view);
     command->add_option("--fly", flags->fly_m_s, "Fly ahead by itself, until a key is pressed")
         ->type_name("M_PER_S");
     command->add_option("--play", flags->play, "Replay a flight, until a key is pressed")

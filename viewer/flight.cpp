@@ -1,11 +1,13 @@
 #include "viewer/flight.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 
 #include <fmt/format.h>
 
 #include "geo/coordinate_text.hpp"
+#include "geo/geodesic.hpp"
 #include "lod/soar/pick.hpp"
 #include "viewer/camera.hpp"
 #include "viewer/error_probe.hpp"
@@ -14,11 +16,11 @@
 #include "viewer/frame_times.hpp"
 #include "viewer/gl_check.hpp"
 #include "viewer/gl_memory.hpp"
+#include "viewer/measuring.hpp"
 #include "viewer/mesher.hpp"
 #include "viewer/motion.hpp"
 #include "viewer/offscreen.hpp"
 #include "viewer/renderer.hpp"
-#include "viewer/ruler.hpp"
 #include "viewer/scene_facts.hpp"
 #include "viewer/ui/panels.hpp"
 
@@ -56,6 +58,7 @@ class Flight {
           mesher_(terrain, options.chunks),
           motion_(terrain, heights, options.forward_m_s),
           sampler_(scene),
+          measuring_(scene, terrain, heights),
           budget_(options.budget, start.tau_px),
           view_(start),
           facts_(scene_facts(scene.info())) {
@@ -67,7 +70,7 @@ class Flight {
 
     Result<FlightFigures> run() {
         while (!window_.should_close()) {
-            const bool busy = desk_.import() != nullptr || error_.busy();
+            const bool busy = desk_.import() != nullptr || error_.busy() || measuring_.busy();
             const bool idle = ground_rests() && !waves_move() && !motion_.moving(window_) &&
                               options_.frames == 0 && still_frames_ > kSettlingFrames && budget_rests();
             const Input& input = window_.poll(!idle ? 0 : busy ? 0.05 : 0.5);
@@ -155,17 +158,24 @@ class Flight {
             if (!made) return made.error();
             target_.emplace(std::move(*made));
         }
-        desk_.begin();
-        const Input ground_input = for_the_ground(input);
+        desk_.begin(input);
+        measuring_.update(units());
+        Input ground_input = for_the_ground(input);
+        const lod::View seen = view_in(width, height);
+        measuring_.take_drag(ground_input, seen, view_.exaggeration,
+                             [&](const glm::dvec2& pixel) { return place_at(seen, pixel); });
         motion_.move(view_, window_, ground_input, dt, width, height);
         if (waves_move()) view_.ocean.time_s += dt;
         if (auto done = read_ground(view_in(width, height), ground_input); !done) return done;
         // After the ground is read: what a key copies is what the cursor, moved in the same moment, is at.
         screenshot_ = false;
         for (const Input::Key& key : ground_input.pressed) obey({press_key(view_, key), {}}, width, height);
-        for (const std::string& path : input.dropped) desk_.open(path);
+        for (const std::string& path : input.dropped) drop(path);
         if (recording_) recording_->see(view_, start);
         const lod::View view = view_in(width, height);
+        line_m_.reset();
+        if (ground_input.cursor_inside)
+            line_m_ = measuring_.distance_at(view, ground_input.cursor, 12, view_.exaggeration);
         if (auto done = draw(view); !done) return done;
         for (const Wish& wish : draw_interface(view)) obey(wish, width, height);
         // Without the wait for the screen, which a frame does not take longer for.
@@ -214,26 +224,42 @@ class Flight {
             cursor_ = *under;
             cursor_is_preview_ = hit && !hit->is_exact;
         }
-        for (const glm::dvec2& click : input.clicks) {
-            // What is measured does not depend on what is in memory.
-            const auto point =
-                measure(lod::pick_exactly(terrain_, view.eye(), view.ray(click), view_.exaggeration));
-            if (!point) return point.error();
-            if (*point) {
-                ruler_.add(**point);
-                if (const auto line = ruler_.line()) {
-                    options_.say(fmt::format("distance {:.4f} m, azimuth {:.6f} degrees", line->length_m,
-                                             line->azimuth1.value));
-                }
-            }
-        }
         if (input.double_click) {
+            measuring_.take_back_click();
             if (const auto there = hit_at(*input.double_click)) go_near(view, *input.double_click, *there);
+        } else {
+            for (const glm::dvec2& click : input.clicks) {
+                // What is measured does not depend on what is in memory.
+                if (const auto place = place_at(view, click)) set_point(*place);
+            }
         }
         const auto middle = hit_at({0.5 * view.camera().width, 0.5 * view.camera().height});
         middle_distance_.reset();
         if (middle) middle_distance_ = middle->distance_m;
         return {};
+    }
+
+    /// Of the full data, whatever is in memory.
+    std::optional<geo::LatLon> place_at(const lod::View& view, const glm::dvec2& pixel) const {
+        const auto hit = lod::pick_exactly(terrain_, view.eye(), view.ray(pixel), view_.exaggeration);
+        if (!hit) return std::nullopt;
+        geo::LatLon place = terrain_.frame().lat_lon(hit->place);
+        place.lon = geo::wrapped_180(place.lon);  // a grid runs on across the antimeridian
+        return place;
+    }
+
+    void set_point(geo::LatLon place) {
+        measuring_.click(place);
+        const Shape& shape = measuring_.tool().shapes()[*measuring_.tool().current()];
+        const std::vector<geo::LatLon>& places = shape.measurement.vertices;
+        if (shape.tool != Tool::line || shape.open) return;
+        const geo::GeodesicLine line = geo::geodesic(places[0], places[1]);
+        options_.say(
+            fmt::format("distance {:.4f} m, azimuth {:.6f} degrees", line.length_m, line.azimuth1.value));
+    }
+
+    geo::UnitSystem units() {
+        return geo::unit_system(desk_.settings().units).value_or(geo::UnitSystem::metric);
     }
 
     Result<void> draw(const lod::View& view) {
@@ -271,35 +297,68 @@ class Flight {
         std::optional<double> reached;
         if (options_.budget.any() || figures_.tau_reached_px > view_.tau_px)
             reached = figures_.tau_reached_px;
-        const HudContent content{.view = view_,
-                                 .vertical = &scene_.info().vertical,
-                                 .cursor = cursor_,
-                                 .above_ground_m = motion_.controls().above_ground(view_),
-                                 .speed_m_s = motion_.controls().speed(view_),
-                                 .triangles = figures_.triangles,
-                                 .tau_reached_px = reached,
-                                 .tau_limit = options_.budget.any() ? "budget" : "memory",
-                                 .playing = motion_.playing(),
-                                 .recording = recording_.has_value(),
-                                 .following = motion_.controls().following(),
-                                 .frame_ms = frame_times_.shown(),
-                                 .pending = pending(),
-                                 .middle_distance_m = middle_distance_,
-                                 .message = desk_.message(),
-                                 .cursor_is_preview = cursor_is_preview_,
-                                 .keys_shown = panels_.keys_shown,
-                                 .panel_width = hidden_ ? 0 : panels_.panel_width(desk_),
-                                 .tools = {},
-                                 .facts = facts_,
-                                 .error = error_.report()};
+        const HudContent content{
+            .view = view_,
+            .vertical = &scene_.info().vertical,
+            .cursor = cursor_,
+            .above_ground_m = motion_.controls().above_ground(view_),
+            .speed_m_s = motion_.controls().speed(view_),
+            .triangles = figures_.triangles,
+            .tau_reached_px = reached,
+            .tau_limit = options_.budget.any() ? "budget" : "memory",
+            .playing = motion_.playing(),
+            .recording = recording_.has_value(),
+            .following = motion_.controls().following(),
+            .frame_ms = frame_times_.shown(),
+            .pending = pending(),
+            .middle_distance_m = middle_distance_,
+            .message = desk_.message(),
+            .cursor_is_preview = cursor_is_preview_,
+            .keys_shown = panels_.keys_shown,
+            .panel_width = hidden_ ? 0 : panels_.panel_width(desk_),
+            .tools = tools(),
+            .facts = facts_,
+            .labels = map_labels(view),
+            .legend = legend(view_.layer, span(), view_.ocean.kind != OceanKind::off && ground_.facts.has_sea,
+                             view_.ramp.get()),
+            .error = error_.report()};
         std::vector<Wish> wishes;
         if (!hidden_) {
-            draw_marks(content, ruler_, ruler_.on_ground(terrain_, view_.exaggeration), view);
-            draw_panels(content, ruler_);
-            wishes = panels_.draw(desk_, view_, content, scene_name(), key_frames_);
+            std::optional<geo::Ecef> pin;
+            if (plot_m_) pin = measuring_.place_at(*plot_m_, view_.exaggeration);
+            draw_marks(content, measuring_.drawn(view_.exaggeration), pin, view);
+            draw_panels(content);
+            wishes =
+                panels_.draw(desk_, view_, content, scene_name(), key_frames_, measuring_, line_m_, plot_m_);
         }
         desk_.end();
         return wishes;
+    }
+
+    HeightSpan span() const {
+        return {ground_.facts.lowest_m, ground_.facts.highest_m, ground_.facts.lowest_land_m};
+    }
+
+    /// Of contours and the graticule; looked for ten times a second at most, and while the view rests once.
+    const std::vector<MapLabel>& map_labels(const lod::View& view) {
+        constexpr double kEveryMs = 100;
+        const std::string seen = to_string(view_);
+        if (seen == labelled_view_ && pending() == 0 && ms_since(last_pending_) > kFadingMs) return labels_;
+        if (ms_since(labelled_) < kEveryMs) return labels_;
+        labelled_ = Clock::now();
+        labelled_view_ = seen;
+        labels_.clear();
+        const LabelOptions options{.exaggeration = view_.exaggeration};
+        const auto has = [&](Overlay::Kind kind) { return find(view_.overlays, kind) != nullptr; };
+        const auto interval = renderer_.contour_interval_m();
+        if (interval && has(Overlay::Kind::contours))
+            labels_ = contour_labels(terrain_, view, *interval, options);
+        const auto graticule = renderer_.graticule();
+        if (graticule && has(Overlay::Kind::graticule)) {
+            const auto more = graticule_labels(terrain_, view, *graticule, options);
+            labels_.insert(labels_.end(), more.begin(), more.end());
+        }
+        return labels_;
     }
 
     /// As settings name the scene.
@@ -374,14 +433,88 @@ class Flight {
                 take_large_screenshot(width, height);
                 break;
             case Command::clear:
-                if (!panels_.close()) ruler_.clear();
+                if (!panels_.close()) measuring_.tool().clear();
                 break;
             case Command::close:
                 window_.close();
                 break;
-            default:
+            case Command::undo:
+                if (!measuring_.tool().undo()) tell("nothing to undo");
+                break;
+            case Command::redo:
+                if (!measuring_.tool().redo()) tell("nothing to do again");
+                break;
+            case Command::finish_shape:
+                measuring_.tool().finish();
+                break;
+            case Command::delete_vertex:
+                measuring_.tool().delete_vertex();
+                break;
+            case Command::save_measurements:
+                save_measurements();
+                break;
+            case Command::tool_point:
+            case Command::tool_line:
+            case Command::tool_path:
+            case Command::tool_area:
+            case Command::tool_sight:
+                take_tool(wish.command);
                 break;
         }
+    }
+
+    struct ToolChoice {
+        Command command;
+        viewer::Tool tool;
+        const char* name;
+        const char* what;
+    };
+    static constexpr std::array<ToolChoice, 5> kTools{
+        {{Command::tool_point, viewer::Tool::point, "Point", "What is known of a place (F2)"},
+         {Command::tool_line, viewer::Tool::line, "Line", "Distance and profile between two places (F3)"},
+         {Command::tool_path, viewer::Tool::path, "Path", "Over many places; Enter ends it (F4)"},
+         {Command::tool_area, viewer::Tool::area, "Area", "Area and volume; Enter ends it (F5)"},
+         {Command::tool_sight, viewer::Tool::sight, "Sight", "Is one place seen from another? (F6)"}}};
+
+    void take_tool(Command command) {
+        for (const ToolChoice& choice : kTools) {
+            if (choice.command != command) continue;
+            measuring_.tool().take(choice.tool);
+            tell(fmt::format("{}: {}", choice.name, choice.what));
+        }
+    }
+
+    std::vector<ToolButton> tools() const {
+        std::vector<ToolButton> buttons;
+        for (const ToolChoice& choice : kTools)
+            buttons.push_back(
+                {choice.name, choice.command, choice.what, measuring_.tool().tool() == choice.tool});
+        return buttons;
+    }
+
+    void save_measurements() {
+        const std::vector<Shape>& shapes = measuring_.tool().shapes();
+        std::vector<Shape> whole;
+        std::vector<const ShapeResult*> results;
+        for (const Shape& shape : shapes) {
+            if (!is_measurable(shape)) continue;
+            whole.push_back(shape);
+            results.push_back(measuring_.results().find(shape));
+        }
+        if (whole.empty()) return tell("nothing is measured yet");
+        const auto file = fresh_file(options_.output_folder, "measurements", "geojson");
+        if (auto done = options_.files.save(whole, results, file); !done) return tell(done.error().message);
+        say(fmt::format("measurements {}", file.string()));
+    }
+
+    /// Measurements of a file are shown; anything else is opened.
+    void drop(const std::filesystem::path& path) {
+        if (!options_.files.is_one || !options_.files.is_one(path)) return desk_.open(path);
+        const auto loaded = options_.files.load(path);
+        if (!loaded) return tell(loaded.error().message);
+        measuring_.tool().insert_shapes(*loaded);
+        desk_.show_panel(true);
+        tell(fmt::format("{}: {} measurements", path.filename().string(), loaded->size()));
     }
 
     /// Towards what was clicked twice: a third of the way is left, or 50 m.
@@ -475,8 +608,10 @@ class Flight {
         constexpr int kTimes = 4;
         const int times = std::min(kTimes, kLargestPicture / std::max(width, height));
         const auto file = fresh_file(options_.output_folder, "relevo", "png");
-        const auto drawn = draw_picture(terrain_, ground_, heights_, view_,
-                                        {.width = times * width, .height = times * height, .samples = 1});
+        auto painter = OffscreenPainter::create_here(terrain_, ground_, heights_);
+        if (!painter) return tell(painter.error().message);
+        const auto drawn = painter->draw(
+            view_, {.width = times * width, .height = times * height, .samples = 1, .timed = false});
         if (!drawn) return tell(drawn.error().message);
         if (auto done = write_picture(drawn->picture, file, to_string(view_)); !done)
             return tell(done.error().message);
@@ -507,7 +642,7 @@ class Flight {
     Mesher mesher_;
     Motion motion_;
     lod::HeightSampler sampler_;
-    Ruler ruler_;
+    Measuring measuring_;
     FrameBudget budget_;
     std::optional<Recording> recording_;
     ViewState view_;
@@ -522,6 +657,11 @@ class Flight {
     std::optional<lod::PointMeasurement> cursor_;
     bool cursor_is_preview_ = false;
     std::optional<double> middle_distance_;
+    std::optional<double> line_m_;  // along the current shape, where the cursor is on the ground
+    std::optional<double> plot_m_;  // likewise, where it is in the profile
+    std::vector<MapLabel> labels_;
+    std::string labelled_view_;
+    Clock::time_point labelled_{};
     bool hidden_ = false;
     bool screenshot_ = false;
     Clock::time_point last_frame_ = Clock::now();

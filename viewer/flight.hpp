@@ -14,6 +14,7 @@
 #include "viewer/flight_path.hpp"
 #include "viewer/frame_budget.hpp"
 #include "viewer/ground/ground_data.hpp"
+#include "viewer/measuring.hpp"
 #include "viewer/ocean/ocean.hpp"
 #include "viewer/ui/desk.hpp"
 #include "viewer/view_state.hpp"
@@ -28,6 +29,7 @@ struct FlightOptions {
     std::filesystem::path record = {};    ///< where what is flown is written in the end; empty: nowhere
     lod::ChunkOptions chunks = {};        ///< how nodes are kept and loaded, with Method::lstr
     BudgetLimits budget = {};             ///< where it has limits, tau adapts to them
+    MeasurementFiles files = {};          ///< how measurements are kept
     std::filesystem::path output_folder = ".";  ///< of pictures, flights and measurements
     /// Called with each line that the user asked for: copied coordinates, copied views, screenshots.
     std::function<void(const std::string&)> say = [](const std::string&) {};

@@ -40,7 +40,6 @@ enum class Command {
     tool_path,
     tool_area,
     tool_sight,
-    tool_viewshed,
     close,
 };
 

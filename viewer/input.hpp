@@ -23,13 +23,15 @@ struct Input {
     glm::dvec2 drag_left{0};  ///< of the cursor while the button was down and no longer a click
     glm::dvec2 drag_right{0};
     glm::dvec2 drag_middle{0};
-    std::optional<glm::dvec2> right_pressed_at;   ///< where the right button went down
-    std::optional<glm::dvec2> middle_pressed_at;  ///< and the middle one
-    std::vector<glm::dvec2> clicks;               ///< of the left button: down and up again in one place
-    std::optional<glm::dvec2> double_click;       ///< the second of two clicks, which is in `clicks` too
-    std::vector<std::string> dropped;             ///< files and folders
-    double wheel = 0;                             ///< turns, up is positive
-    bool anything = false;                        ///< any event at all
+    std::optional<glm::dvec2> left_pressed_at;   ///< where the left button went down
+    bool left_down = false;                      ///< still
+    std::optional<glm::dvec2> right_pressed_at;  ///< likewise
+    std::optional<glm::dvec2> middle_pressed_at;
+    std::vector<glm::dvec2> clicks;          ///< of the left button: down and up again in one place
+    std::optional<glm::dvec2> double_click;  ///< the second of two clicks, which is in `clicks` too
+    std::vector<std::string> dropped;        ///< files and folders
+    double wheel = 0;                        ///< turns, up is positive
+    bool anything = false;                   ///< any event at all
 };
 
 }  // namespace relevo::viewer

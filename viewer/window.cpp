@@ -75,6 +75,7 @@ struct Window::State {
         if (press == nullptr) return;
         if (action == GLFW_PRESS) {
             *press = {true, false, gathered.cursor};
+            if (press == &left) gathered.left_pressed_at = gathered.cursor;
             if (press == &right) gathered.right_pressed_at = gathered.cursor;
             if (press == &middle) gathered.middle_pressed_at = gathered.cursor;
         } else {
@@ -191,6 +192,7 @@ const Input& Window::poll(double wait_s) {
     }
     Input& gathered = state_->gathered;
     state_->now = gathered;
+    state_->now.left_down = state_->left.down;
     Input fresh;
     fresh.cursor = gathered.cursor;
     fresh.cursor_inside = gathered.cursor_inside;

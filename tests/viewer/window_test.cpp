@@ -1,71 +1,18 @@
-#include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <regex>
 #include <thread>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/run_program.hpp"
-#include "tests/viewer/desktop.hpp"
-#include "tests/viewer/scene_for_pictures.hpp"
+#include "tests/viewer/window_fixture.hpp"
 #include "viewer/flight_path.hpp"
 
 namespace relevo::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The window for real: a display of its own, keys and mouse by xdotool, what it wrote and what it shows.
-class WindowTest : public testing::Test {
-  protected:
-    void SetUp() override {
-        for (const char* tool : {"Xvfb", "xdotool"}) {
-            if (std::system(fmt::format("command -v {} >/dev/null", tool).c_str()) != 0) {
-                GTEST_SKIP() << tool << " is not installed";
-            }
-        }
-        scene_ = (folder_ / "mountains.relevo").string();
-        write_mountains(scene_);
-        ASSERT_TRUE(desktop_.start()) << "Xvfb does not start";
-    }
-
-    void start(const std::string& flags) {
-        program_ = desktop_.run({RELEVO_PROGRAM, "view", scene_, "--size", "800x600", "--screenshot-dir",
-                                 folder_.path().string()},
-                                flags, folder_ / "out", folder_ / "err");
-    }
-
-    /// Opens the window, and waits until it has shown its first frames.
-    void open(const std::string& flags) {
-        start(flags);
-        ASSERT_TRUE(desktop_.wait_for_window()) << contents(folder_ / "err");
-    }
-
-    /// Waits until the program has said something that matches, up to 20 seconds; the first group of the
-    /// match.
-    std::string said(const std::string& pattern) {
-        std::smatch match;
-        for (int i = 0; i < 200; ++i) {
-            text_ = contents(folder_ / "out") + contents(folder_ / "err");
-            if (std::regex_search(text_, match, std::regex(pattern))) return match.str(match.size() - 1);
-            std::this_thread::sleep_for(std::chrono::milliseconds(100));
-        }
-        ADD_FAILURE() << "nothing like " << pattern << " in:\n" << text_;
-        return {};
-    }
-
-    void point_at(int x, int y) { desktop_.xdotool(fmt::format("mousemove {} {}", x, y)); }
-    void press(const std::string& keys) { desktop_.xdotool("key " + keys); }
-
-    SceneFolder folder_;
-    std::string scene_;
-    Desktop desktop_;
-    std::string text_;
-    pid_t program_ = 0;
-};
 
 // Straight down on the middle: up in the picture is north.
 constexpr const char* kMap = "--at 35.982222,138.017778,6000/heading=0/pitch=-90/fov=30";

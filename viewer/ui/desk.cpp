@@ -46,10 +46,10 @@ void Desk::apply_look() {
     ui_.set_look(scale, settings_.light);
 }
 
-void Desk::begin() {
+void Desk::begin(const Input& input) {
     if (std::exchange(look_changed_, false)) apply_look();
     window_.set_typing(ui_.has_keys());
-    ui_.begin();
+    ui_.begin(input);
 }
 
 void Desk::open(const fs::path& path) {

@@ -42,7 +42,7 @@ class Desk {
     void look_again() { look_changed_ = true; }
 
     /// A frame of the user interface.
-    void begin();
+    void begin(const Input& input);
     void end() { ui_.end(); }
 
     /// Does what a user expects of a path that was dropped or chosen: a scene (its folder, or a file in it)

@@ -62,7 +62,7 @@ void FileChooser::show() {
     shown_ = fresh_ = true;
 }
 
-std::optional<fs::path> FileChooser::draw() {
+std::optional<fs::path> FileChooser::draw(const Ui& ui) {
     if (!shown_) return std::nullopt;
     std::optional<fs::path> chosen;
     const ImVec2 size = ImGui::GetIO().DisplaySize;
@@ -76,7 +76,9 @@ std::optional<fs::path> FileChooser::draw() {
     ImGui::SetNextItemWidth(-1);
     if (fresh_) ImGui::SetKeyboardFocusHere();
     fresh_ = false;
-    if (ImGui::InputTextWithHint("##path", "or type a path", &typed_, ImGuiInputTextFlags_EnterReturnsTrue)) {
+    const bool entered =
+        ImGui::InputTextWithHint("##path", "or type a path", &typed_, ImGuiInputTextFlags_EnterReturnsTrue);
+    if (entered || ui.entered()) {
         chosen = folder_ / typed_;  // the path itself where it is absolute
     }
     ImGui::BeginChild("entries", {0, 0}, true);

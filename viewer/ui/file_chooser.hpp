@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "viewer/ui/ui.hpp"
+
 namespace relevo::viewer {
 
 /// What a folder has that can be opened: folders, scenes and elevation files, by name.
@@ -23,7 +25,7 @@ class FileChooser {
     bool shown() const { return shown_; }
 
     /// \pre between Ui::begin and end. What was chosen, in the frame in which it is.
-    std::optional<std::filesystem::path> draw();
+    std::optional<std::filesystem::path> draw(const Ui& ui);
 
   private:
     void enter(const std::filesystem::path& folder);

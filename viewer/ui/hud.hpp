@@ -10,13 +10,14 @@
 #include "lod/scene/scene_info.hpp"
 #include "lod/view.hpp"
 #include "viewer/flight_keys.hpp"
-#include "viewer/ruler.hpp"
+#include "viewer/legend.hpp"
+#include "viewer/map_labels.hpp"
 #include "viewer/view_state.hpp"
 
 namespace relevo::viewer {
 
 /// A tool of the tool bar, and whether it is the one in hand.
-struct Tool {
+struct ToolButton {
     const char* name;
     Command command;
     const char* what;
@@ -44,8 +45,10 @@ struct HudContent {
     bool cursor_is_preview = false;  ///< of the place: finer ground is being read
     bool keys_shown = false;
     float panel_width = 0;           ///< what the side panel covers, in the user interface's units
-    std::vector<Tool> tools;         ///< of the tool bar
+    std::vector<ToolButton> tools;   ///< of the tool bar
     std::vector<std::string> facts;  ///< of the scene
+    std::vector<MapLabel> labels;    ///< of contours and the graticule
+    std::optional<Legend> legend;    ///< of the layer's colours
     std::vector<std::string> error;  ///< of the picture, measured
 };
 
@@ -54,15 +57,22 @@ struct HudContent {
 std::string heights_text(const lod::PointMeasurement& point, const lod::VerticalReference& vertical);
 /// "37.577500° N  105.485300° W"
 std::string place_text(geo::LatLon place);
-/// "12.345 km", "840.00 m"
-std::string length_text(double metres);
 
-/// Panels of text: the view, the place under the cursor, the measured line, the keys. \pre between Ui::begin
-/// and end
-void draw_panels(const HudContent& content, const Ruler& ruler);
+/// A measured shape as it is drawn.
+struct DrawnShape {
+    std::vector<geo::Ecef> line;        ///< on the ground
+    std::vector<std::size_t> vertices;  ///< which of them the user set
+    std::string label;
+    bool current = false;
+};
 
-/// Drawn over the ground: compass, scale bar, the ruler's marks and line. \pre between Ui::begin and end
-void draw_marks(const HudContent& content, const Ruler& ruler, const std::vector<geo::Ecef>& ruler_line,
-                const lod::View& view);
+/// Panels of text: the view, the place under the cursor, the keys, and what the picture is not. \pre between
+/// Ui::begin and end
+void draw_panels(const HudContent& content);
+
+/// Drawn over the ground: compass, scale bar, measured shapes, a ring around a place of interest. \pre
+/// between Ui::begin and end
+void draw_marks(const HudContent& content, const std::vector<DrawnShape>& shapes,
+                const std::optional<geo::Ecef>& pin, const lod::View& view);
 
 }  // namespace relevo::viewer

@@ -22,6 +22,50 @@ void text(ImDrawList& list, ImVec2 middle, const std::string& what) {
     list.AddText(at, kLight, what.c_str());
 }
 
+/// Letters along a line that falls to the right by some degrees: dark ones around light ones.
+void turned_text(ImDrawList& list, ImVec2 middle, double degrees, const std::string& what) {
+    const ImVec2 size = ImGui::CalcTextSize(what.c_str());
+    const ImVec2 corner(middle.x - 0.5f * size.x, middle.y - 0.5f * size.y);
+    const int first = list.VtxBuffer.Size;
+    for (const ImVec2& by : {ImVec2(-1, 0), ImVec2(1, 0), ImVec2(0, -1), ImVec2(0, 1)})
+        list.AddText({corner.x + by.x, corner.y + by.y}, kDark, what.c_str());
+    list.AddText(corner, kLight, what.c_str());
+    const double angle = degrees * 3.14159265358979 / 180;
+    const auto cosine = static_cast<float>(std::cos(angle));
+    const auto sine = static_cast<float>(std::sin(angle));
+    for (int i = first; i < list.VtxBuffer.Size; ++i) {
+        ImVec2& at = list.VtxBuffer[i].pos;
+        const float x = at.x - middle.x;
+        const float y = at.y - middle.y;
+        at = {middle.x + x * cosine - y * sine, middle.y + x * sine + y * cosine};
+    }
+}
+
+/// The layer's colours with their values, in the lower left corner.
+void legend_bar(ImDrawList& list, const Legend& legend) {
+    const float letter = ImGui::GetFontSize();
+    const float height = 11 * letter;
+    const float width = 0.9f * letter;
+    const float left = 0.8f * letter;
+    const float bottom = ImGui::GetIO().DisplaySize.y - 4 * letter;
+    list.AddRectFilled({left - 0.3f * letter, bottom - height - 1.8f * letter},
+                       {left + 6.2f * letter, bottom + 0.6f * letter}, IM_COL32(13, 15, 20, 215), 4);
+    const std::size_t steps = legend.colours.size();
+    for (std::size_t i = 0; i < steps; ++i) {
+        const auto& c = legend.colours[i];
+        const float low = bottom - height * static_cast<float>(i) / static_cast<float>(steps);
+        const float high = bottom - height * static_cast<float>(i + 1) / static_cast<float>(steps);
+        list.AddRectFilled({left, high}, {left + width, low}, IM_COL32(c[0], c[1], c[2], 255));
+    }
+    for (const Legend::Mark& mark : legend.marks) {
+        const float y = bottom - height * static_cast<float>(mark.at);
+        list.AddLine({left + width, y}, {left + width + 4, y}, kLight, 1.5f);
+        list.AddText({left + width + 7, y - 0.5f * letter}, kLight, mark.text.c_str());
+    }
+    const std::string title = legend.title + (legend.unit.empty() ? "" : ", " + legend.unit);
+    list.AddText({left, bottom - height - 1.6f * letter}, kLight, title.c_str());
+}
+
 /// On a dark plate: over the ground there is no telling what is below.
 void label(ImDrawList& list, ImVec2 middle, const std::string& what) {
     const ImVec2 size = ImGui::CalcTextSize(what.c_str());
@@ -84,47 +128,59 @@ void scale_bar(ImDrawList& list, double distance_m, const lod::View& view, float
          km < 1 ? fmt::format("at {:.0f} m", distance_m) : fmt::format("at {:.3g} km", km));
 }
 
-void ruler_marks(ImDrawList& list, const Ruler& ruler, const std::vector<geo::Ecef>& line,
-                 const lod::View& view, float ui_per_px) {
-    // A point behind the eye has no place in the picture: the line has gaps there.
-    const auto in_picture = [&](const geo::Ecef& position) -> std::optional<ImVec2> {
-        const glm::dvec3 offset = position - view.eye();
-        if (!(view.depth(offset) > lod::View::kNearM)) return std::nullopt;
-        const glm::dvec2 pixel = view.pixel(offset);
-        if (std::abs(pixel.x) > 1e5 || std::abs(pixel.y) > 1e5) return std::nullopt;
-        return ImVec2(static_cast<float>(pixel.x) * ui_per_px, static_cast<float>(pixel.y) * ui_per_px);
-    };
-    if (line.empty()) return;
-    for (const auto& [colour, width] : {std::pair(kDark, 5.0f), std::pair(kMeasure, 2.5f)}) {
-        for (std::size_t i = 1; i < line.size(); ++i) {
-            const auto from = in_picture(line[i - 1]);
-            const auto to = in_picture(line[i]);
+/// Where a position is in the picture, in the user interface's units. Nothing behind the eye: lines have gaps
+/// there.
+std::optional<ImVec2> in_picture(const geo::Ecef& position, const lod::View& view, float ui_per_px) {
+    const glm::dvec3 offset = position - view.eye();
+    if (!(view.depth(offset) > lod::View::kNearM)) return std::nullopt;
+    const glm::dvec2 pixel = view.pixel(offset);
+    if (std::abs(pixel.x) > 1e5 || std::abs(pixel.y) > 1e5) return std::nullopt;
+    return ImVec2(static_cast<float>(pixel.x) * ui_per_px, static_cast<float>(pixel.y) * ui_per_px);
+}
+
+void shape_marks(ImDrawList& list, const DrawnShape& shape, const lod::View& view, float ui_per_px) {
+    const auto place = [&](std::size_t i) { return in_picture(shape.line[i], view, ui_per_px); };
+    const float letter = ImGui::GetFontSize();
+    for (const auto& [colour, width] :
+         {std::pair(kDark, shape.current ? 5.0f : 4.0f), std::pair(kMeasure, shape.current ? 2.5f : 1.5f)}) {
+        for (std::size_t i = 1; i < shape.line.size(); ++i) {
+            const auto from = place(i - 1);
+            const auto to = place(i);
             if (from && to) list.AddLine(*from, *to, colour, width);
         }
     }
-    const std::size_t ends = ruler.points().size();
-    for (std::size_t i = 0; i < ends; ++i) {
-        const auto at = in_picture(i == 0 ? line.front() : line.back());
+    for (std::size_t i = 0; i < shape.vertices.size(); ++i) {
+        const auto at = place(shape.vertices[i]);
         if (!at) continue;
-        list.AddCircleFilled(*at, 7, kDark);
-        list.AddCircleFilled(*at, 5, kMeasure);
-        label(list, {at->x, at->y - 1.3f * ImGui::GetFontSize()}, fmt::format("{}", i + 1));
+        list.AddCircleFilled(*at, shape.current ? 7.0f : 5.0f, kDark);
+        list.AddCircleFilled(*at, shape.current ? 5.0f : 3.5f, kMeasure);
+        if (shape.current && shape.vertices.size() > 1)
+            label(list, {at->x, at->y - 1.3f * letter}, fmt::format("{}", i + 1));
     }
-    if (const auto measured = ruler.line()) {
-        if (const auto at = in_picture(line[line.size() / 2])) {
-            label(list, {at->x, at->y - 1.3f * ImGui::GetFontSize()}, length_text(measured->length_m));
-        }
-    }
+    if (shape.label.empty() || shape.line.empty()) return;
+    const std::size_t middle = shape.vertices.size() > 1 ? shape.line.size() / 2 : 0;
+    if (const auto at = place(middle)) label(list, {at->x, at->y - 1.3f * letter}, shape.label);
 }
 
 }  // namespace
 
-void draw_marks(const HudContent& content, const Ruler& ruler, const std::vector<geo::Ecef>& ruler_line,
-                const lod::View& view) {
+void draw_marks(const HudContent& content, const std::vector<DrawnShape>& shapes,
+                const std::optional<geo::Ecef>& pin, const lod::View& view) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const float ui_per_px = ImGui::GetIO().DisplaySize.x / static_cast<float>(view.camera().width);
-    ruler_marks(list, ruler, ruler_line, view, ui_per_px);
+    for (const DrawnShape& shape : shapes) shape_marks(list, shape, view, ui_per_px);
+    if (pin) {
+        if (const auto at = in_picture(*pin, view, ui_per_px)) {
+            list.AddCircle(*at, 9, kDark, 24, 4);
+            list.AddCircle(*at, 9, kLight, 24, 2);
+        }
+    }
     compass(list, content.view.heading, content.panel_width);
+    for (const MapLabel& map_label : content.labels) {
+        const glm::vec2 at = glm::vec2(map_label.pixel) * ui_per_px;
+        turned_text(list, {at.x, at.y}, map_label.angle, map_label.text);
+    }
+    if (content.legend) legend_bar(list, *content.legend);
     if (content.middle_distance_m)
         scale_bar(list, *content.middle_distance_m, view, ui_per_px, content.panel_width);
 }

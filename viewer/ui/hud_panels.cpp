@@ -9,13 +9,12 @@ namespace relevo::viewer {
 
 namespace {
 
-enum class Corner { upper_left, top, below_last, bottom, middle };
+enum class Corner { upper_left, top, bottom, middle };
 
 /// A panel of lines that is as large as its text, and takes neither clicks nor keys.
 class Panel {
   public:
-    /// \param last_bottom  where the panel above it ends, for Corner::below_last
-    Panel(const char* name, Corner corner, float last_bottom = 0) {
+    Panel(const char* name, Corner corner) {
         const ImVec2 size = ImGui::GetIO().DisplaySize;
         const float margin = 0.5f * ImGui::GetFontSize();
         // Below the tool bar.
@@ -26,9 +25,6 @@ class Panel {
                 break;
             case Corner::top:
                 at.x = 0.5f * size.x, pivot.x = 0.5f;
-                break;
-            case Corner::below_last:
-                at.y = last_bottom;
                 break;
             case Corner::bottom:
                 at = {0.5f * size.x, size.y - margin}, pivot = {0.5f, 1};
@@ -48,11 +44,6 @@ class Panel {
     ~Panel() { ImGui::End(); }
 
     void line(const std::string& text) { ImGui::TextUnformatted(text.data(), text.data() + text.size()); }
-
-    /// Where the next panel below may begin.
-    float bottom() const {
-        return ImGui::GetWindowPos().y + ImGui::GetWindowHeight() + 0.5f * ImGui::GetFontSize();
-    }
 };
 
 std::string eye_text(geo::OrthometricHeight H, const lod::VerticalReference& vertical) {
@@ -66,7 +57,7 @@ std::string tau_text(const HudContent& content) {
                        content.tau_limit);
 }
 
-float view_panel(const HudContent& content) {
+void view_panel(const HudContent& content) {
     const ViewState& view = content.view;
     Panel panel("view", Corner::upper_left);
     panel.line(place_text(view.place));
@@ -87,7 +78,6 @@ float view_panel(const HudContent& content) {
     if (content.pending > 0) panel.line(fmt::format("loading {}", content.pending));
     if (view.exaggeration != 1) panel.line(fmt::format("heights x {:.3g}", view.exaggeration));
     if (view.layer != Layer::hypsometric) panel.line(std::string(to_string(view.layer)));
-    return panel.bottom();
 }
 
 void cursor_panel(const HudContent& content) {
@@ -116,21 +106,6 @@ void banner(const HudContent& content) {
     panel.line(what);
 }
 
-void ruler_panel(const Ruler& ruler, const lod::VerticalReference& vertical, float top) {
-    if (ruler.points().empty()) return;
-    Panel panel("ruler", Corner::below_last, top);
-    for (std::size_t i = 0; i < ruler.points().size(); ++i) {
-        const auto& point = ruler.points()[i];
-        panel.line(fmt::format("{}: {}  {}", i + 1, place_text(point.place), heights_text(point, vertical)));
-    }
-    if (const auto line = ruler.line()) {
-        panel.line(fmt::format("geodesic {}  azimuth {:.3f}\u00b0", length_text(line->length_m),
-                               line->azimuth1.value));
-    } else {
-        panel.line("click the second point; Esc clears");
-    }
-}
-
 void keys_panel() {
     ImGui::SetNextWindowBgAlpha(0.92f);
     Panel panel("keys", Corner::middle);
@@ -153,10 +128,6 @@ std::string place_text(geo::LatLon place) {
                        place.lat.value < 0 ? "S" : "N", std::abs(lon), lon < 0 ? "W" : "E");
 }
 
-std::string length_text(double metres) {
-    return metres < 1000 ? fmt::format("{:.2f} m", metres) : fmt::format("{:.5f} km", metres / 1000);
-}
-
 std::string heights_text(const lod::PointMeasurement& point, const lod::VerticalReference& vertical) {
     if (point.kind == lod::PointClass::outside) return "outside the data";
     if (!point.H) return "no data (void)";
@@ -169,9 +140,8 @@ std::string heights_text(const lod::PointMeasurement& point, const lod::Vertical
     return fmt::format("H {:.2f} m {}{}   {}", point.H->m, vertical.name, assumed, h);
 }
 
-void draw_panels(const HudContent& content, const Ruler& ruler) {
-    const float top = view_panel(content);
-    ruler_panel(ruler, *content.vertical, top);
+void draw_panels(const HudContent& content) {
+    view_panel(content);
     cursor_panel(content);
     banner(content);
     if (content.keys_shown) keys_panel();

@@ -1,11 +1,15 @@
 #include "viewer/ui/panels.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
+
+#include "viewer/ui/measure_panel.hpp"
 
 namespace relevo::viewer {
 
@@ -28,10 +32,60 @@ bool tool_button(const char* name, bool on, const char* what) {
     return pressed;
 }
 
+/// The first overlay of a kind, and whether there is one: a box to have it or not.
+Overlay* overlay_box(Overlays& overlays, Overlay::Kind kind, const char* name) {
+    const auto found = std::find_if(overlays.begin(), overlays.end(),
+                                    [&](const Overlay& overlay) { return overlay.kind == kind; });
+    bool on = found != overlays.end();
+    if (ImGui::Checkbox(name, &on)) {
+        if (!on) overlays.erase(found);
+        if (on && overlays.size() < kMostOverlays) overlays.push_back({.kind = kind});
+        return nullptr;
+    }
+    return on ? &*found : nullptr;
+}
+
+void opacity(Overlay& overlay) {
+    auto value = static_cast<float>(overlay.opacity);
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::SliderFloat("##opacity", &value, 0, 1, "opacity %.2f"))
+        overlay.opacity = static_cast<double>(value);
+}
+
+void overlay_choices(ViewState& view) {
+    ImGui::Separator();
+    ImGui::PushID("contours");
+    if (Overlay* contours = overlay_box(view.overlays, Overlay::Kind::contours, "contours")) {
+        opacity(*contours);
+        auto interval = static_cast<float>(contours->interval_m);
+        if (ImGui::InputFloat("m apart", &interval, 0, 0, interval == 0 ? "auto" : "%.6g"))
+            contours->interval_m = std::clamp(static_cast<double>(interval), 0.0, 10000.0);
+        hint("0: what suits the view");
+    }
+    ImGui::PopID();
+    ImGui::PushID("graticule");
+    if (Overlay* graticule = overlay_box(view.overlays, Overlay::Kind::graticule, "graticule")) {
+        opacity(*graticule);
+        ImGui::Checkbox("UTM", &graticule->utm);
+    }
+    ImGui::PopID();
+    for (std::size_t i = 0; i < view.overlays.size(); ++i) {
+        Overlay& overlay = view.overlays[i];
+        const bool imagery = overlay.kind == Overlay::Kind::imagery;
+        if (!imagery && overlay.kind != Overlay::Kind::vectors) continue;
+        ImGui::PushID(static_cast<int>(i));
+        ImGui::Text("%s %d", imagery ? "imagery" : "vectors", overlay.file + 1);
+        opacity(overlay);
+        ImGui::PopID();
+    }
+}
+
 void drawing(ViewState& view) {
-    static constexpr std::array<std::pair<Layer, const char*>, 5> kLayers{{{Layer::hypsometric, "tints"},
+    static constexpr std::array<std::pair<Layer, const char*>, 6> kLayers{{{Layer::hypsometric, "tints"},
                                                                            {Layer::hillshade, "hillshade"},
                                                                            {Layer::slope, "slope"},
+                                                                           {Layer::aspect, "aspect"},
                                                                            {Layer::terrain, "terrain"},
                                                                            {Layer::lod, "levels"}}};
     for (std::size_t i = 0; i < kLayers.size(); ++i) {
@@ -57,10 +111,11 @@ void drawing(ViewState& view) {
 
 }  // namespace
 
-void Panels::sun(ViewState& view) {
+void Panels::sun(const Ui& ui, ViewState& view) {
     if (!ImGui::IsAnyItemActive()) sun_text_ = view.sun.text;
     ImGui::SetNextItemWidth(-ImGui::CalcTextSize("sun  ").x);
-    if (ImGui::InputText("sun", &sun_text_, ImGuiInputTextFlags_EnterReturnsTrue)) {
+    const bool entered = ImGui::InputText("sun", &sun_text_, ImGuiInputTextFlags_EnterReturnsTrue);
+    if (entered || ui.entered()) {
         const auto read = parse_sun(sun_text_);
         sun_fault_ = read ? "" : read.error().message;
         if (read) view.sun = *read;
@@ -138,7 +193,8 @@ void Panels::places(Desk& desk, const std::string& scene, KeyFrames& frames, std
 }
 
 void Panels::side_panel(Desk& desk, ViewState& view, const HudContent& content, const std::string& scene,
-                        KeyFrames& frames, std::vector<Wish>& wishes) {
+                        KeyFrames& frames, Measuring& measuring, const std::optional<double>& line_m,
+                        std::optional<double>& plot_m, std::vector<Wish>& wishes) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const float letter = ImGui::GetFontSize();
     const float top = ImGui::GetFrameHeightWithSpacing() + letter;
@@ -149,7 +205,14 @@ void Panels::side_panel(Desk& desk, ViewState& view, const HudContent& content, 
     if (ImGui::BeginTabBar("tabs")) {
         if (ImGui::BeginTabItem("Layers")) {
             drawing(view);
-            sun(view);
+            sun(desk.ui(), view);
+            overlay_choices(view);
+            ImGui::EndTabItem();
+        }
+        const bool measured =
+            std::exchange(measured_version_, measuring.tool().version()) != measuring.tool().version();
+        if (ImGui::BeginTabItem("Measure", nullptr, measured ? ImGuiTabItemFlags_SetSelected : 0)) {
+            plot_m = draw_measure_panel(measuring, line_m, wishes);
             ImGui::EndTabItem();
         }
         if (ImGui::BeginTabItem("Places")) {
@@ -167,6 +230,9 @@ void Panels::side_panel(Desk& desk, ViewState& view, const HudContent& content, 
         if (ImGui::BeginTabItem("Look")) {
             bool light = desk.settings().light;
             if (ImGui::Checkbox("light (F10)", &light)) wishes.push_back({Command::light_or_dark, {}});
+            for (const char* units : {"metric", "imperial", "nautical"}) {
+                if (ImGui::RadioButton(units, desk.settings().units == units)) desk.settings().units = units;
+            }
             auto scale = static_cast<float>(desk.settings().ui_scale);
             ImGui::SliderFloat("letters", &scale, 0, 4, scale < 0.5f ? "the screen's" : "x %.2f");
             desk.settings().ui_scale = scale < 0.5f ? 0 : static_cast<double>(scale);
@@ -178,7 +244,7 @@ void Panels::side_panel(Desk& desk, ViewState& view, const HudContent& content, 
     ImGui::End();
 }
 
-void Panels::go_to(std::vector<Wish>& wishes) {
+void Panels::go_to(const Ui& ui, std::vector<Wish>& wishes) {
     if (!go_to_shown_) return;
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const float letter = ImGui::GetFontSize();
@@ -190,7 +256,8 @@ void Panels::go_to(std::vector<Wish>& wishes) {
     if (go_to_fresh_) ImGui::SetKeyboardFocusHere();
     go_to_fresh_ = false;
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::InputText("##place", &go_to_text_, ImGuiInputTextFlags_EnterReturnsTrue)) {
+    const bool entered = ImGui::InputText("##place", &go_to_text_, ImGuiInputTextFlags_EnterReturnsTrue);
+    if (entered || ui.entered()) {
         go_to_fault_.clear();
         go_to_shown_ = false;
         wishes.push_back({Command::go_to, go_to_text_});
@@ -204,13 +271,15 @@ void Panels::go_to(std::vector<Wish>& wishes) {
 }
 
 std::vector<Wish> Panels::draw(Desk& desk, ViewState& view, const HudContent& content,
-                               const std::string& scene, KeyFrames& frames) {
+                               const std::string& scene, KeyFrames& frames, Measuring& measuring,
+                               const std::optional<double>& line_m, std::optional<double>& plot_m) {
     std::vector<Wish> wishes;
+    plot_m.reset();
     toolbar(desk, content, wishes);
-    if (desk.panel_shown()) side_panel(desk, view, content, scene, frames, wishes);
-    go_to(wishes);
+    if (desk.panel_shown()) side_panel(desk, view, content, scene, frames, measuring, line_m, plot_m, wishes);
+    go_to(desk.ui(), wishes);
     desk.draw_import();
-    if (const auto chosen = chooser_.draw()) desk.open(*chosen);
+    if (const auto chosen = chooser_.draw(desk.ui())) desk.open(*chosen);
     return wishes;
 }
 

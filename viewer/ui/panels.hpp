@@ -6,6 +6,7 @@
 
 #include "viewer/flight_keys.hpp"
 #include "viewer/flight_path.hpp"
+#include "viewer/measuring.hpp"
 #include "viewer/ui/desk.hpp"
 #include "viewer/ui/file_chooser.hpp"
 #include "viewer/ui/hud.hpp"
@@ -29,9 +30,11 @@ class Panels {
         double seconds_between = 4;
     };
 
-    /// \pre between Ui::begin and end
+    /// \param line_m, plot_m  how far along the measured line the cursor is: on the ground; in the plot, to
+    /// be set \pre between Ui::begin and end
     std::vector<Wish> draw(Desk& desk, ViewState& view, const HudContent& content, const std::string& scene,
-                           KeyFrames& frames);
+                           KeyFrames& frames, Measuring& measuring, const std::optional<double>& line_m,
+                           std::optional<double>& plot_m);
 
     /// Of the side panel as it is drawn; 0 while it is hidden.
     float panel_width(const Desk& desk) const;
@@ -47,12 +50,14 @@ class Panels {
   private:
     void toolbar(Desk& desk, const HudContent& content, std::vector<Wish>& wishes);
     void side_panel(Desk& desk, ViewState& view, const HudContent& content, const std::string& scene,
-                    KeyFrames& frames, std::vector<Wish>& wishes);
+                    KeyFrames& frames, Measuring& measuring, const std::optional<double>& line_m,
+                    std::optional<double>& plot_m, std::vector<Wish>& wishes);
     void places(Desk& desk, const std::string& scene, KeyFrames& frames, std::vector<Wish>& wishes);
-    void sun(ViewState& view);
-    void go_to(std::vector<Wish>& wishes);
+    void sun(const Ui& ui, ViewState& view);
+    void go_to(const Ui& ui, std::vector<Wish>& wishes);
 
     FileChooser chooser_;
+    std::size_t measured_version_ = 0;  // of the shapes when the panel was last drawn
     bool go_to_shown_ = false;
     bool go_to_fresh_ = false;
     std::string go_to_text_;

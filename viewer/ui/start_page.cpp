@@ -43,7 +43,7 @@ void draw_page(Desk& desk, FileChooser& chooser) {
     }
     ImGui::End();
     desk.draw_import();
-    if (const auto chosen = chooser.draw()) desk.open(*chosen);
+    if (const auto chosen = chooser.draw(desk.ui())) desk.open(*chosen);
 }
 
 }  // namespace
@@ -66,7 +66,7 @@ Result<std::optional<fs::path>> choose_scene(Desk& desk) {
         glViewport(0, 0, size.x, size.y);
         glClearColor(0.16f, 0.20f, 0.26f, 1);
         glClear(GL_COLOR_BUFFER_BIT);
-        desk.begin();
+        desk.begin(input);
         draw_page(desk, chooser);
         desk.end();
         window.show();

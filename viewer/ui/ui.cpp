@@ -1,10 +1,13 @@
+#define GLFW_INCLUDE_NONE  // keys alone
 #include "viewer/ui/ui.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
 
+#include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
@@ -78,7 +81,10 @@ void Ui::set_look(double scale, bool light) {
     ImGuiIO& io = ImGui::GetIO();
     io.Fonts->Clear();
     load_font(io, static_cast<float>(scale));
-    ImGui_ImplOpenGL3_DestroyFontsTexture();  // made again with the next frame
+    if (begun_) {  // else the first frame makes it
+        ImGui_ImplOpenGL3_DestroyFontsTexture();
+        ImGui_ImplOpenGL3_CreateFontsTexture();
+    }
     ImGuiStyle& style = ImGui::GetStyle();
     style = ImGuiStyle();
     style.WindowRounding = 4;
@@ -90,7 +96,7 @@ void Ui::set_look(double scale, bool light) {
         style.Colors[ImGuiCol_TextDisabled] = ImVec4(0.36f, 0.37f, 0.40f, 1);
     } else {
         ImGui::StyleColorsDark(&style);
-        style.Colors[ImGuiCol_WindowBg] = ImVec4(0.05f, 0.06f, 0.08f, 0.76f);
+        style.Colors[ImGuiCol_WindowBg] = ImVec4(0.05f, 0.06f, 0.08f, 0.84f);
         style.Colors[ImGuiCol_TextDisabled] = ImVec4(0.68f, 0.70f, 0.74f, 1);
     }
     style.ScaleAllSizes(static_cast<float>(scale));
@@ -103,7 +109,15 @@ bool Ui::has_keys() const {
     return ImGui::GetIO().WantTextInput;
 }
 
-void Ui::begin() {
+bool Ui::entered() const {
+    return enter_pressed_ && ImGui::IsItemActive();
+}
+
+void Ui::begin(const Input& input) {
+    begun_ = true;
+    enter_pressed_ = std::any_of(input.pressed.begin(), input.pressed.end(), [](const Input::Key& key) {
+        return key.number == GLFW_KEY_ENTER || key.number == GLFW_KEY_KP_ENTER;
+    });
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();

@@ -22,7 +22,11 @@ class Ui {
     /// Is something being typed in?
     bool has_keys() const;
 
-    void begin();
+    /// \param input  what happened since the last frame
+    void begin(const Input& input);
+    /// Was Enter pressed in the line of text that was just drawn? Dear ImGui does not see a key that goes
+    /// down and up within a frame, and frames may be long.
+    bool entered() const;
     /// Draws what was said since begin() into the window's frame.
     void end();
 
@@ -32,6 +36,8 @@ class Ui {
     };
     explicit Ui(std::unique_ptr<int, Release> started);
     std::unique_ptr<int, Release> started_;
+    bool begun_ = false;  // any frame
+    bool enter_pressed_ = false;
 };
 
 }  // namespace relevo::viewer
