@@ -1,7 +1,6 @@
 #include "viewer/flight.hpp"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 
 #include <fmt/format.h>
@@ -12,16 +11,18 @@
 #include "viewer/camera.hpp"
 #include "viewer/error_probe.hpp"
 #include "viewer/flight_keys.hpp"
-#include "viewer/flight_recorder.hpp"
 #include "viewer/frame_times.hpp"
 #include "viewer/gl_check.hpp"
 #include "viewer/gl_memory.hpp"
+#include "viewer/label_keeper.hpp"
 #include "viewer/measuring.hpp"
 #include "viewer/mesher.hpp"
 #include "viewer/motion.hpp"
 #include "viewer/offscreen.hpp"
+#include "viewer/recording.hpp"
 #include "viewer/renderer.hpp"
 #include "viewer/scene_facts.hpp"
+#include "viewer/tool_list.hpp"
 #include "viewer/ui/panels.hpp"
 
 namespace relevo::viewer {
@@ -32,14 +33,6 @@ using Clock = std::chrono::steady_clock;
 
 double ms_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-/// A file of a folder that is not there yet: name-0001.ending and so on.
-std::filesystem::path fresh_file(const std::filesystem::path& folder, const char* name, const char* ending) {
-    std::filesystem::path file;
-    for (int i = 1; file.empty() || std::filesystem::exists(file); ++i)
-        file = folder / fmt::format("{}-{:04d}.{}", name, i, ending);
-    return file;
 }
 
 /// One flight: what draws in the window, and the state that its user changes.
@@ -95,7 +88,7 @@ class Flight {
             figures_.frames_within_budget =
                 static_cast<double>(within_budget_) / static_cast<double>(figures_.frames);
         }
-        if (auto done = write_record(); !done) return done.error();
+        if (auto done = end_recording(); !done) return done.error();
         return figures_;
     }
 
@@ -131,13 +124,12 @@ class Flight {
     /// At rest the budget goes on until tau does, too; but noise does not keep it going for ever.
     bool budget_rests() const { return budget_.at_rest() || still_frames_ > kBudgetFrames; }
 
-    Result<void> write_record() {
-        if (!recording_ || !recording_->recorder.any()) return {};
-        const FlightPath flown = recording_->recorder.finish();
-        if (auto done = write_flight(flown, recording_->file); !done) return done;
-        say(fmt::format("flight {}: {:.1f} s, {} keys", recording_->file.string(), flown.duration_s(),
-                        flown.keys().size()));
+    Result<void> end_recording() {
+        if (!recording_) return {};
+        const auto written = recording_->write();
         recording_.reset();
+        if (!written) return written.error();
+        if (*written) say(**written);
         return {};
     }
 
@@ -267,6 +259,7 @@ class Flight {
         if (view_.tau_px != finest_) budget_.set_finest(finest_ = view_.tau_px);
         const lod::Mesh& mesh = mesher_.mesh(view, view_, budget_);
         mesh_ = &mesh;
+        drawn_.emplace(view);
         figures_.tau_reached_px = view_.method == Method::full ? view_.tau_px : budget_.tau_px();
         refine_times_.add(ms_since(start));
         figures_.triangles = mesh.triangles();
@@ -318,7 +311,7 @@ class Flight {
             .panel_width = hidden_ ? 0 : panels_.panel_width(desk_),
             .tools = tools(),
             .facts = facts_,
-            .labels = map_labels(view),
+            .labels = labels_.labels(terrain_, renderer_, view_, view, ground_rests()),
             .legend = legend(view_.layer, span(), view_.ocean.kind != OceanKind::off && ground_.facts.has_sea,
                              view_.ramp.get()),
             .error = error_.report()};
@@ -337,28 +330,6 @@ class Flight {
 
     HeightSpan span() const {
         return {ground_.facts.lowest_m, ground_.facts.highest_m, ground_.facts.lowest_land_m};
-    }
-
-    /// Of contours and the graticule; looked for ten times a second at most, and while the view rests once.
-    const std::vector<MapLabel>& map_labels(const lod::View& view) {
-        constexpr double kEveryMs = 100;
-        const std::string seen = to_string(view_);
-        if (seen == labelled_view_ && pending() == 0 && ms_since(last_pending_) > kFadingMs) return labels_;
-        if (ms_since(labelled_) < kEveryMs) return labels_;
-        labelled_ = Clock::now();
-        labelled_view_ = seen;
-        labels_.clear();
-        const LabelOptions options{.exaggeration = view_.exaggeration};
-        const auto has = [&](Overlay::Kind kind) { return find(view_.overlays, kind) != nullptr; };
-        const auto interval = renderer_.contour_interval_m();
-        if (interval && has(Overlay::Kind::contours))
-            labels_ = contour_labels(terrain_, view, *interval, options);
-        const auto graticule = renderer_.graticule();
-        if (graticule && has(Overlay::Kind::graticule)) {
-            const auto more = graticule_labels(terrain_, view, *graticule, options);
-            labels_.insert(labels_.end(), more.begin(), more.end());
-        }
-        return labels_;
     }
 
     /// As settings name the scene.
@@ -423,7 +394,7 @@ class Flight {
                 play_key_frames();
                 break;
             case Command::measure_error:
-                error_.begin(terrain_, view_in(width, height), *mesh_, view_.exaggeration, view_.tau_px);
+                if (drawn_) error_.begin(terrain_, *drawn_, *mesh_, view_.exaggeration, view_.tau_px);
                 desk_.show_panel(true);
                 break;
             case Command::screenshot:
@@ -462,19 +433,6 @@ class Flight {
                 break;
         }
     }
-
-    struct ToolChoice {
-        Command command;
-        viewer::Tool tool;
-        const char* name;
-        const char* what;
-    };
-    static constexpr std::array<ToolChoice, 5> kTools{
-        {{Command::tool_point, viewer::Tool::point, "Point", "What is known of a place (F2)"},
-         {Command::tool_line, viewer::Tool::line, "Line", "Distance and profile between two places (F3)"},
-         {Command::tool_path, viewer::Tool::path, "Path", "Over many places; Enter ends it (F4)"},
-         {Command::tool_area, viewer::Tool::area, "Area", "Area and volume; Enter ends it (F5)"},
-         {Command::tool_sight, viewer::Tool::sight, "Sight", "Is one place seen from another? (F6)"}}};
 
     void take_tool(Command command) {
         for (const ToolChoice& choice : kTools) {
@@ -546,6 +504,11 @@ class Flight {
         if (!view) return tell(fmt::format("this is no view: {}", view.error().message));
         ViewState to = *view;
         to.ocean.map = view_.ocean.map;
+        to.metric = view_.metric;  // the terrain is open for it
+        if (to.method == Method::lstr && terrain_.chunks() == nullptr) {
+            to.method = view_.method;
+            tell("nodes are drawn where the window is opened with --lod lstr");
+        }
         std::swap(to, view_);  // how it is drawn at once, where one is by a short flight
         const ViewState there = view_;
         put(view_, key_of(to, 0));
@@ -562,8 +525,7 @@ class Flight {
 
     void toggle_recording() {
         if (recording_) {
-            if (auto done = write_record(); !done) tell(done.error().message);
-            recording_.reset();
+            if (auto done = end_recording(); !done) tell(done.error().message);
         } else {
             recording_.emplace(fresh_file(options_.output_folder, "flight", "flight"));
             tell("recording; R again ends it");
@@ -618,18 +580,6 @@ class Flight {
         say(fmt::format("picture {}", file.string()));
     }
 
-    /// What is flown, from its first frame on.
-    struct Recording {
-        explicit Recording(std::filesystem::path to) : file(std::move(to)) {}
-        void see(const ViewState& view, Clock::time_point now) {
-            if (!recorder.any()) begin = now;
-            recorder.see(view, std::chrono::duration<double>(now - begin).count());
-        }
-        std::filesystem::path file;
-        FlightRecorder recorder;
-        Clock::time_point begin{};
-    };
-
     Desk& desk_;
     Window& window_;
     const lod::Scene& scene_;
@@ -654,14 +604,13 @@ class Flight {
     ErrorProbe error_;
     std::vector<std::string> facts_;
     const lod::Mesh* mesh_ = nullptr;  // of the last frame
+    std::optional<lod::View> drawn_;   // likewise
     std::optional<lod::PointMeasurement> cursor_;
     bool cursor_is_preview_ = false;
     std::optional<double> middle_distance_;
     std::optional<double> line_m_;  // along the current shape, where the cursor is on the ground
     std::optional<double> plot_m_;  // likewise, where it is in the profile
-    std::vector<MapLabel> labels_;
-    std::string labelled_view_;
-    Clock::time_point labelled_{};
+    LabelKeeper labels_;
     bool hidden_ = false;
     bool screenshot_ = false;
     Clock::time_point last_frame_ = Clock::now();

@@ -211,6 +211,21 @@ TEST_F(WindowTest, GoesToAPlaceThatIsTyped) {
     close();
 }
 
+TEST_F(WindowTest, APastedViewOfNodesThatAreNotThereIsDrawnAllTheSame) {
+    open(kMap);
+    press("v");
+    std::string view = said("view ([^\n]+)");
+    view.replace(view.find("lod=soar"), 8, "lod=lstr");
+    press("g");
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    desktop_.xdotool(fmt::format("type --delay 20 '{}'", view));
+    press("Return");
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    press("v");
+    EXPECT_NE(said("view [^\n]+\nview ([^\n]+)").find("lod=soar"), std::string::npos);
+    close();
+}
+
 TEST_F(WindowTest, KeyFramesBecomeAPathAndRecordingIsAFlight) {
     open(kMap);
     press("r");

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "viewer/map_labels.hpp"
+#include "viewer/renderer.hpp"
+#include "viewer/view_state.hpp"
+
+namespace relevo::viewer {
+
+/// The labels of a moving picture's contours and graticule: looked for ten times a second at most, and once
+/// while neither the view nor the ground changes.
+class LabelKeeper {
+  public:
+    /// \param ground_rests  all of the ground that the view wants is there
+    const std::vector<MapLabel>& labels(const lod::Terrain& terrain, const Renderer& renderer,
+                                        const ViewState& state, const lod::View& view, bool ground_rests);
+
+  private:
+    std::vector<MapLabel> labels_;
+    std::string seen_;
+    std::chrono::steady_clock::time_point made_{};
+};
+
+}  // namespace relevo::viewer
