@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -38,6 +41,28 @@ void turned_text(ImDrawList& list, ImVec2 middle, double degrees, const std::str
         const float x = at.x - middle.x;
         const float y = at.y - middle.y;
         at = {middle.x + x * cosine - y * sine, middle.y + x * sine + y * cosine};
+    }
+}
+
+/// Upright ones are moved into the picture, as letters may be larger than who placed them knows; of two that
+/// touch the first stays.
+void map_labels(ImDrawList& list, const std::vector<MapLabel>& labels, float ui_per_px) {
+    const ImVec2 picture = ImGui::GetIO().DisplaySize;
+    const float margin = 0.4f * ImGui::GetFontSize();
+    std::vector<std::pair<ImVec2, float>> drawn;  // their middles and half their widths
+    for (const MapLabel& map_label : labels) {
+        const ImVec2 size = ImGui::CalcTextSize(map_label.text.c_str());
+        const float reach = 0.5f * size.x + margin;
+        ImVec2 at(static_cast<float>(map_label.pixel.x) * ui_per_px,
+                  static_cast<float>(map_label.pixel.y) * ui_per_px);
+        if (map_label.angle == 0 && picture.x > 2 * reach) at.x = std::clamp(at.x, reach, picture.x - reach);
+        const bool touches = std::any_of(drawn.begin(), drawn.end(), [&](const auto& other) {
+            return std::abs(other.first.x - at.x) < other.second + reach &&
+                   std::abs(other.first.y - at.y) < 1.3f * size.y;
+        });
+        if (touches) continue;
+        drawn.emplace_back(at, reach);
+        turned_text(list, at, map_label.angle, map_label.text);
     }
 }
 
@@ -176,10 +201,7 @@ void draw_marks(const HudContent& content, const std::vector<DrawnShape>& shapes
         }
     }
     compass(list, content.view.heading, content.panel_width);
-    for (const MapLabel& map_label : content.labels) {
-        const glm::vec2 at = glm::vec2(map_label.pixel) * ui_per_px;
-        turned_text(list, {at.x, at.y}, map_label.angle, map_label.text);
-    }
+    map_labels(list, content.labels, ui_per_px);
     if (content.legend) legend_bar(list, *content.legend);
     if (content.middle_distance_m)
         scale_bar(list, *content.middle_distance_m, view, ui_per_px, content.panel_width);
