@@ -55,8 +55,11 @@ Result<void> check_importable(const fs::path& file) {
     const auto options = options_for(file);
     if (!options) return options.error();
     const auto plan = ingest::plan_import(*options);
-    if (!plan) return plan.error();
-    return {};
+    if (plan) return {};
+    Error why = plan.error();
+    // The flags that it may name are not this command's.
+    if (why.message.find(" --") != std::string::npos) why.message += "; `relevo ingest` takes these flags";
+    return why;
 }
 
 Result<fs::path> quick_import(const fs::path& file, const std::function<bool(double)>& progress) {
