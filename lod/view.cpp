@@ -84,11 +84,15 @@ glm::dvec3 View::ray(const glm::dvec2& pixel) const {
     return glm::normalize(glm::transpose(rotation_) * in_eye_space);
 }
 
-View::ErrorScale View::error_scale(double margin_px) const {
-    const double tan_x = (0.5 * camera_.width + margin_px) / focal_px_;
-    const double tan_y = (0.5 * camera_.height + margin_px) / focal_px_;
-    const double inverse_cos2 = 1 + tan_x * tan_x + tan_y * tan_y;
-    return {focal_px_ * inverse_cos2, std::sqrt(inverse_cos2)};
+double View::corner_secant() const {
+    const double tan_x = 0.5 * camera_.width / focal_px_;
+    const double tan_y = 0.5 * camera_.height / focal_px_;
+    return std::sqrt(1 + tan_x * tan_x + tan_y * tan_y);
+}
+
+View::ErrorScale View::error_scale() const {
+    const double secant = corner_secant();
+    return {focal_px_ * secant * secant, 1 + secant};
 }
 
 }  // namespace relevo::lod

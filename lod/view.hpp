@@ -59,16 +59,17 @@ class View {
     /// no near or far plane: reversed depth needs none.
     const std::array<glm::dvec3, 4>& side_planes() const { return side_planes_; }
 
-    /// What turns an object-space error into pixels anywhere in the picture (docs/design.md): an error of
-    /// delta metres at a distance of D metres or more moves a point by at most lambda_px * delta / (D - kappa
-    /// * delta) pixels.
+    /// 1 / cos of the angle between the view direction and a corner of the picture.
+    double corner_secant() const;
+
+    /// What turns an object-space error into pixels (docs/design.md): of a point at a distance of D metres or
+    /// more and one at most delta metres from it, where either is in the picture, the other appears at most
+    /// lambda_px * delta / (D - kappa * delta) pixels away.
     struct ErrorScale {
-        double lambda_px;  ///< focal_px / cos^2 of the angle at the picture's corner
-        double kappa;      ///< 1 / cos of it
+        double lambda_px;
+        double kappa;
     };
-    /// \param margin_px  the picture is widened by it on every side, for points that have moved out of it
-    /// that far
-    ErrorScale error_scale(double margin_px) const;
+    ErrorScale error_scale() const;
 
   private:
     Camera camera_;

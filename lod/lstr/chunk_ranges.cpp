@@ -21,7 +21,7 @@ ChunkRanges::ChunkRanges(const ChunkSet& chunks, const ChunkIndex& index)
 }
 
 void ChunkRanges::update(const View& view, const RefineOptions& options) {
-    const View::ErrorScale scale = view.error_scale(options.tau_px);
+    const View::ErrorScale scale = view.error_scale();
     const double px_to_m = scale.lambda_px / options.tau_px + scale.kappa;
     if (px_to_m == px_to_m_ && options.morph == morph_ && options.exaggeration == exaggeration_) return;
     px_to_m_ = px_to_m;

@@ -84,7 +84,7 @@ class SeenSea {
         const glm::dvec3 forward = sea.view.forward();
         const glm::dvec3 along = glm::normalize(forward - side * glm::dot(side, forward));
         // Not as far as the plane across the view: the pyramid would turn over.
-        const double turn = std::min(ProjectedGrid::margin(sea) * sea.view.error_scale(0).kappa, 0.5);
+        const double turn = std::min(ProjectedGrid::margin(sea) * sea.view.corner_secant(), 0.5);
         const double angle = turn * glm::dot(along, forward);
         return side * std::cos(angle) - along * std::sin(angle);
     }

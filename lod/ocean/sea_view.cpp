@@ -41,7 +41,7 @@ double height_px(const View& view) {
             most = std::max(most, view.focal_px() * glm::length(moved) / (depth * depth * sine));
         }
     }
-    return most > 0 ? most : view.error_scale(0).lambda_px;
+    return most > 0 ? most : view.error_scale().lambda_px;
 }
 
 SeaView::SeaView(const View& view_, const SeaChart& chart_, double sea_h_m, double crest, double wave_m)

@@ -94,7 +94,7 @@ struct Refiner::Workshop {
 };
 
 void Refiner::Workshop::prepare(const View& view, const RefineOptions& options) {
-    const View::ErrorScale scale = view.error_scale(options.tau_px);
+    const View::ErrorScale scale = view.error_scale();
     test.eye = view.eye().m;
     test.planes = view.side_planes();
     test.exaggeration = options.exaggeration;

@@ -1,6 +1,7 @@
 #include "lod/soar/refiner.hpp"
 
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include <glm/geometric.hpp>
@@ -244,6 +245,29 @@ std::vector<glm::dvec3> surface(const Terrain& terrain, const View& view, const 
     return points;
 }
 
+// A tau beyond the picture's size: once every triangle of the ground was drawn there, as the picture had been
+// widened by tau for what moves into it.
+TEST(Refiner, MoreToleranceNeverTakesMoreTriangles) {
+    const Terrain terrain = make({"", test::mountains, 36, 138, 1.0 / 3600, 129, 129});
+    Refiner refiner(terrain);
+    Camera camera;
+    camera.eye = test::above(terrain, 64, 120, 3000);
+    camera.pitch = geo::Degrees{-20};
+    camera.width = 320;
+    camera.height = 180;
+    const View view(camera);
+    std::size_t least = std::numeric_limits<std::size_t>::max();
+    for (double tau = 0.25; tau < 1e7; tau *= 4) {
+        const Mesh& mesh = **refiner.refine_whole(view, {.tau_px = tau, .morph = false});
+        EXPECT_LE(mesh.triangles(), least) << "tau " << tau;
+        least = mesh.triangles();
+        const auto error = measure_error(terrain, view, mesh);
+        ASSERT_TRUE(error);
+        EXPECT_LE(error->max_px, tau);
+    }
+    EXPECT_LT(least, 100);
+}
+
 // Must show: no height jumps along a flight of 1000 steps of 1 m. With the morph the largest change of the
 // surface between steps is bounded: a vertex of error delta comes in over a band of distances lambda delta (1
 // / tau_min - 1 / tau_max), so that a step of 1 m moves it by at most its surplus over that band; without it
@@ -270,8 +294,8 @@ TEST(Refiner, SurfaceMovesContinuouslyAlongAFlight) {
             before = now;
         }
     }
-    const double lambda = View(Camera{}).error_scale(8).lambda_px / 2;  // a picture half as high
-    const double steepest = std::sqrt(2.0) * 2 * 8 / lambda;            // metres a metre of flight, a vertex
+    const double lambda = View(Camera{}).error_scale().lambda_px / 2;  // a picture half as high
+    const double steepest = std::sqrt(2.0) * 2 * 8 / lambda;           // metres a metre of flight, a vertex
     RecordProperty("largest_change_morph_m", std::to_string(largest[1]));
     RecordProperty("largest_change_step_m", std::to_string(largest[0]));
     EXPECT_LT(largest[1], 12 * steepest) << "a chain of at most 12 levels";

@@ -124,9 +124,9 @@ int fly(const peers::PeerOptions& options) {
         }};
     // All that the path needs is read before it is flown, as the other engines have it: frames are then of
     // the errors that are measured. It counts as loading.
-    constexpr int kStops = 30;
-    for (int k = 0; k <= kStops; ++k) {
-        const lod::View view(camera_at(terrain, static_cast<double>(k) / kStops, options));
+    const int stops = std::max(options.frames, 1);
+    for (int k = 0; k <= stops; ++k) {
+        const lod::View view(camera_at(terrain, static_cast<double>(k) / stops, options));
         must(mesher.whole_mesh(view, how));
         must(renderer.complete(view, settings, {0, 0, options.width, options.height}));
     }
