@@ -17,7 +17,6 @@
 #include "lod/sample_views.hpp"
 #include "lod/scene/scene.hpp"
 #include "tests/cases/real_dem.hpp"
-#include "tests/ingest/importing.hpp"
 #include "tests/lod/brute_chunk_error.hpp"
 #include "tests/lod/scratch_scene.hpp"
 #include "tests/shared_data.hpp"
@@ -99,11 +98,7 @@ class ChunksOfRealDems : public testing::TestWithParam<RealDem> {};
 TEST_P(ChunksOfRealDems, KeepTheirErrorsAndFit) {
     RELEVO_NEEDS_DATA(GetParam().file);
     const test::SceneFolder folder;
-    ingest::ImportOptions options = test::options_for(test::shared_data(GetParam().file));
-    if (*GetParam().crs != '\0') options.mosaic.sources.front().crs = GetParam().crs;
-    const auto imported = ingest::import_scene(options, {folder / "real.relevo"});
-    ASSERT_TRUE(imported) << imported.error().message;
-    const auto scene = Scene::open(folder / "real.relevo");
+    const auto scene = test::import_real(GetParam(), folder);
     ASSERT_TRUE(scene) << scene.error().message;
     const auto terrain = Terrain::open(*scene, ErrorMetric::bounded, {.fade_s = 0});
     ASSERT_TRUE(terrain) << terrain.error().message;

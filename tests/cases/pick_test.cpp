@@ -13,11 +13,9 @@
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>
 
-#include "ingest/import.hpp"
 #include "lod/scene/scene.hpp"
 #include "lod/soar/cell.hpp"
 #include "tests/cases/real_dem.hpp"
-#include "tests/ingest/importing.hpp"
 #include "tests/lod/scratch_scene.hpp"
 #include "tests/shared_data.hpp"
 
@@ -137,11 +135,7 @@ class PickingRealDems : public testing::TestWithParam<test::RealDem> {};
 TEST_P(PickingRealDems, FindsTheCellThatASearchOfAllFinds) {
     RELEVO_NEEDS_DATA(GetParam().file);
     const test::SceneFolder folder;
-    ingest::ImportOptions options = test::options_for(test::shared_data(GetParam().file));
-    if (*GetParam().crs != '\0') options.mosaic.sources.front().crs = GetParam().crs;
-    const auto imported = ingest::import_scene(options, {folder / "real.relevo"});
-    ASSERT_TRUE(imported) << imported.error().message;
-    const auto scene = Scene::open(folder / "real.relevo");
+    const auto scene = test::import_real(GetParam(), folder);
     ASSERT_TRUE(scene) << scene.error().message;
     const auto terrain = Terrain::open(*scene, ErrorMetric::bounded, {.fade_s = 0});
     ASSERT_TRUE(terrain) << terrain.error().message;
@@ -161,7 +155,7 @@ TEST_P(PickingRealDems, FindsTheCellThatASearchOfAllFinds) {
     for (int i = 0; i < kRays; ++i) {
         const geo::GridPosition place{any(0, frame.columns - 1), any(0, frame.rows - 1)};
         const geo::Ecef eye = frame.ecef(
-            place, {terrain->undulations().at(place) + imported->info.height_max_m + any(10, 8000)});
+            place, {terrain->undulations().at(place) + scene->info().height_max_m + any(10, 8000)});
         const geo::EnuFrame local(geo::to_geodetic(eye));
         const double azimuth = any(0, 2 * M_PI);
         const double down = geo::Degrees{any(1, 90)}.radians();
@@ -170,7 +164,7 @@ TEST_P(PickingRealDems, FindsTheCellThatASearchOfAllFinds) {
                       std::sin(down) * local.up()});
     }
 
-    const Brute brute(*terrain, imported->info);
+    const Brute brute(*terrain, scene->info());
     std::vector<std::optional<BruteHit>> expected(kRays);
     tbb::parallel_for(0, kRays, [&](int i) {
         const Ray& ray = rays[static_cast<std::size_t>(i)];

@@ -5,7 +5,6 @@
 
 #include "lod/scene_check.hpp"
 #include "tests/cases/real_dem.hpp"
-#include "tests/ingest/importing.hpp"
 #include "tests/lod/same_pyramid.hpp"
 #include "tests/lod/scratch_scene.hpp"
 #include "tests/shared_data.hpp"
@@ -28,11 +27,7 @@ class RealDems : public testing::TestWithParam<RealDem> {};
 TEST_P(RealDems, KeepTheErrorOnEveryView) {
     RELEVO_NEEDS_DATA(GetParam().file);
     const test::SceneFolder folder;
-    ingest::ImportOptions options = test::options_for(test::shared_data(GetParam().file));
-    if (*GetParam().crs != '\0') options.mosaic.sources.front().crs = GetParam().crs;
-    const auto imported = ingest::import_scene(options, {folder / "real.relevo"});
-    ASSERT_TRUE(imported) << imported.error().message;
-    const auto scene = Scene::open(folder / "real.relevo");
+    const auto scene = test::import_real(GetParam(), folder);
     ASSERT_TRUE(scene) << scene.error().message;
     const auto terrain = Terrain::open(*scene, ErrorMetric::bounded, {.fade_s = 0});
     ASSERT_TRUE(terrain) << terrain.error().message;
@@ -57,10 +52,7 @@ TEST_P(RealDems, KeepTheErrorOnEveryView) {
 TEST_P(RealDems, HaveOnePyramidOnDiskAndInMemory) {
     RELEVO_NEEDS_DATA(GetParam().file);
     const test::SceneFolder folder;
-    ingest::ImportOptions options = test::options_for(test::shared_data(GetParam().file));
-    if (*GetParam().crs != '\0') options.mosaic.sources.front().crs = GetParam().crs;
-    ASSERT_TRUE(ingest::import_scene(options, {folder / "real.relevo"}));
-    const auto scene = Scene::open(folder / "real.relevo");
+    const auto scene = test::import_real(GetParam(), folder);
     ASSERT_TRUE(scene) << scene.error().message;
     const auto heights = scene->read_all_heights();
     ASSERT_TRUE(heights);

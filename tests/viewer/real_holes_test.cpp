@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "ingest/import.hpp"
 #include "lod/lstr/chunk_making.hpp"
 #include "lod/scene/scene.hpp"
 #include "lod/soar/pick.hpp"
@@ -44,13 +43,9 @@ TEST_P(HolesInRealDems, NoBackgroundShinesThrough) {
     RELEVO_NEEDS_DATA(GetParam().file);
     const SceneFolder folder;
     ingest::ImportOptions options;
-    options.mosaic.sources.emplace_back().input = shared_data(GetParam().file).string();
-    if (*GetParam().crs != '\0') options.mosaic.sources.front().crs = GetParam().crs;
     options.fill_width =
         255;  // voids may have moved as far as the mesh is off: they are not what is looked for
-    const auto imported = ingest::import_scene(options, {folder / "real.relevo"});
-    ASSERT_TRUE(imported) << imported.error().message;
-    const auto scene = must(lod::Scene::open(folder / "real.relevo"));
+    const auto scene = must(import_real(GetParam(), folder, options));
     auto terrain = must(lod::Terrain::open(scene, lod::ErrorMetric::bounded, {.fade_s = 0}));
     must(lod::provide_chunks(scene, terrain));
     Studio studio(std::move(terrain));
@@ -66,7 +61,7 @@ TEST_P(HolesInRealDems, NoBackgroundShinesThrough) {
         lod::Camera camera =
             above_looking_down(studio.terrain(), std::round(any(0.2, 0.8) * (frame.columns - 1)),
                                std::round(any(0.2, 0.8) * (frame.rows - 1)), 0, 320, 240);
-        camera.eye.h.m = imported->info.height_max_m + std::exp(any(std::log(100), std::log(30e3)));
+        camera.eye.h.m = scene.info().height_max_m + std::exp(any(std::log(100), std::log(30e3)));
         camera.heading.value = any(0, 360);
         camera.pitch.value = any(-90, -15);
         viewer::ViewState how;
