@@ -1,0 +1,140 @@
+#include "viewer/flight_commands.hpp"
+
+#include <fmt/format.h>
+
+#include "geo/coordinate_text.hpp"
+#include "viewer/camera.hpp"
+#include "viewer/flight_files.hpp"
+#include "viewer/tool_list.hpp"
+#include "viewer/travel.hpp"
+
+namespace relevo::viewer {
+
+namespace {
+
+void copy(FlightState& flight, const char* what, const std::string& text) {
+    flight.desk.window().set_clipboard(text);
+    flight.options.say(fmt::format("{} {}", what, text));
+    flight.tell(fmt::format("copied the {}", what));
+}
+
+void copy_place(FlightState& flight) {
+    if (!flight.cursor) return flight.tell("no ground under the cursor to copy");
+    std::string text = geo::to_decimal_degrees(flight.cursor->place);
+    if (flight.cursor->H) text += fmt::format(", {:.3f}", flight.cursor->H->m);
+    copy(flight, "coordinates", text);
+}
+
+void take_tool(FlightState& flight, Command command) {
+    for (const ToolChoice& choice : kTools) {
+        if (choice.command != command) continue;
+        flight.measuring.tool().take(choice.tool);
+        flight.tell(fmt::format("{}: {}", choice.name, choice.what));
+    }
+}
+
+}  // namespace
+
+void obey(FlightState& flight, const Wish& wish, int width, int height) {
+    Desk& desk = flight.desk;
+    Panels& panels = flight.panels;
+    ViewState& view = flight.view;
+    MeasureTool& tool = flight.measuring.tool();
+    switch (wish.command) {
+        case Command::none:
+            break;
+        case Command::open_file:
+            panels.show_chooser();
+            break;
+        case Command::show_keys:
+            panels.keys_shown = !panels.keys_shown;
+            break;
+        case Command::show_panel:
+            desk.show_panel(!desk.panel_shown());
+            break;
+        case Command::hide_all:
+            flight.hidden = !flight.hidden;
+            break;
+        case Command::light_or_dark:
+            desk.settings().light = !desk.settings().light;
+            desk.look_again();
+            break;
+        case Command::go_to:
+            go_to(flight, wish.text);
+            break;
+        case Command::add_bookmark:
+            add_bookmark(flight);
+            break;
+        case Command::copy_place:
+            copy_place(flight);
+            break;
+        case Command::copy_view:
+            copy(flight, "view", to_string(view));
+            break;
+        case Command::paste_view:
+            go_to_view(flight, wish.text.empty() ? desk.window().clipboard() : wish.text);
+            break;
+        case Command::whole_scene:
+            look_over(view, flight.terrain, flight.scene.info(), flight.heights, width, height);
+            break;
+        case Command::level:
+            view.pitch = view.roll = geo::Degrees{0};
+            break;
+        case Command::follow_ground:
+            flight.tell(flight.motion.controls().toggle_following(view) ? "following the ground"
+                                                                        : "not following the ground");
+            break;
+        case Command::record:
+            toggle_recording(flight);
+            break;
+        case Command::add_key_frame:
+            flight.key_frames.keys.push_back(key_of(view, 0));
+            flight.tell(fmt::format("key frame {}", flight.key_frames.keys.size()));
+            break;
+        case Command::play_key_frames:
+            play_key_frames(flight);
+            break;
+        case Command::measure_error:
+            if (flight.drawn)
+                flight.error.begin(flight.terrain, *flight.drawn, *flight.mesh, view.exaggeration,
+                                   view.tau_px);
+            desk.show_panel(true);
+            break;
+        case Command::screenshot:
+            flight.screenshot_wanted = true;
+            break;
+        case Command::large_screenshot:
+            take_large_picture(flight, width, height);
+            break;
+        case Command::clear:
+            if (!panels.close()) tool.clear();
+            break;
+        case Command::close:
+            desk.window().close();
+            break;
+        case Command::undo:
+            if (!tool.undo()) flight.tell("nothing to undo");
+            break;
+        case Command::redo:
+            if (!tool.redo()) flight.tell("nothing to do again");
+            break;
+        case Command::finish_shape:
+            tool.finish();
+            break;
+        case Command::delete_vertex:
+            tool.delete_vertex();
+            break;
+        case Command::save_measurements:
+            save_measurements(flight);
+            break;
+        case Command::tool_point:
+        case Command::tool_line:
+        case Command::tool_path:
+        case Command::tool_area:
+        case Command::tool_sight:
+            take_tool(flight, wish.command);
+            break;
+    }
+}
+
+}  // namespace relevo::viewer

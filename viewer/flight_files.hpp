@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+
+#include "geo/result.hpp"
+#include "viewer/flight_state.hpp"
+
+// What a flight writes into the output folder and reads from files.
+namespace relevo::viewer {
+
+/// The window's picture as it is about to be shown.
+Result<void> take_screenshot(FlightState& flight);
+
+/// Four times as wide and as high as the window, without read-outs, as `render` draws it.
+/// \param width, height  of the window's picture
+void take_large_picture(FlightState& flight, int width, int height);
+
+void toggle_recording(FlightState& flight);
+/// Writes what was flown, where it is being recorded.
+Result<void> end_recording(FlightState& flight);
+
+/// Writes the key frames as a flight, and flies it.
+void play_key_frames(FlightState& flight);
+
+void save_measurements(FlightState& flight);
+
+/// Measurements of a file are shown; anything else is opened.
+void open_dropped(FlightState& flight, const std::filesystem::path& path);
+
+}  // namespace relevo::viewer
