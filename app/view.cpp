@@ -5,6 +5,7 @@
 #include <string>
 
 #include "output/measurement_file.hpp"
+#include "output/viewshed_file.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -84,7 +85,11 @@ viewer::MeasurementFiles measurement_files() {
         }
         return output::save_measurements(file, records, false);
     };
-    return {output::is_measurement_file, output::load_measurements, save};
+    const auto save_viewshed = [](const lod::SceneInfo& info, const lod::Viewshed& shed,
+                                  const std::filesystem::path& file) {
+        return output::write_viewshed(file, info, shed, false);
+    };
+    return {output::is_measurement_file, output::load_measurements, save, save_viewshed};
 }
 
 /// What the flags say of the view and of the flight, for whichever scene.

@@ -127,8 +127,8 @@ class Flight {
         flight_.measuring.update(units());
         Input ground_input = for_the_ground(input);
         const lod::View seen = view_in(width, height);
-        flight_.measuring.take_drag(ground_input, seen, flight_.view.exaggeration,
-                                    [&](const glm::dvec2& pixel) { return place_at(seen, pixel); });
+        flight_.measuring.take_mouse(ground_input, seen, flight_.view.exaggeration,
+                                     [&](const glm::dvec2& pixel) { return place_at(seen, pixel); });
         flight_.motion.move(flight_.view, window_, ground_input, dt, width, height);
         if (waves_move()) flight_.view.ocean.time_s += dt;
         if (auto done = read_ground(view_in(width, height), ground_input); !done) return done;
@@ -299,6 +299,7 @@ class Flight {
             std::optional<geo::Ecef> pin;
             if (plot_m_) pin = flight_.measuring.place_at(*plot_m_, flight_.view.exaggeration);
             draw_marks(content, flight_.measuring.drawn(flight_.view.exaggeration), pin, view);
+            draw_handles(flight_.measuring.handles(flight_.view.exaggeration), view);
             draw_panels(content);
             wishes = flight_.panels.draw(flight_.desk, flight_.view, content, flight_.scene_name(),
                                          flight_.key_frames, flight_.measuring, line_m_, plot_m_);

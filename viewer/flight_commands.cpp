@@ -107,7 +107,13 @@ void obey(FlightState& flight, const Wish& wish, int width, int height) {
             take_large_picture(flight, width, height);
             break;
         case Command::clear:
-            if (!panels.close()) tool.clear();
+            // What is open over the ground, else what takes its time, else all that is measured.
+            if (panels.close()) break;
+            if (flight.measuring.busy()) {
+                flight.measuring.results().cancel();
+                break;
+            }
+            tool.clear();
             break;
         case Command::close:
             desk.window().close();
@@ -122,16 +128,20 @@ void obey(FlightState& flight, const Wish& wish, int width, int height) {
             tool.finish();
             break;
         case Command::delete_vertex:
-            tool.delete_vertex();
+            flight.measuring.delete_vertex();
             break;
         case Command::save_measurements:
             save_measurements(flight);
+            break;
+        case Command::save_viewshed:
+            save_viewshed(flight);
             break;
         case Command::tool_point:
         case Command::tool_line:
         case Command::tool_path:
         case Command::tool_area:
         case Command::tool_sight:
+        case Command::tool_viewshed:
             take_tool(flight, wish.command);
             break;
     }

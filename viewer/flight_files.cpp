@@ -89,6 +89,17 @@ void save_measurements(FlightState& flight) {
     flight.say(fmt::format("measurements {}", file.string()));
 }
 
+void save_viewshed(FlightState& flight) {
+    const MeasureTool& tool = flight.measuring.tool();
+    const ShapeResult* result =
+        tool.current() ? flight.measuring.results().find(tool.shapes()[*tool.current()]) : nullptr;
+    if (result == nullptr || !result->viewshed) return flight.tell("no viewshed is measured and chosen");
+    const auto file = output_file(flight, "viewshed", "tif");
+    if (auto done = flight.options.files.save_viewshed(flight.scene.info(), *result->viewshed, file); !done)
+        return flight.tell(done.error().message);
+    flight.say(fmt::format("viewshed {}", file.string()));
+}
+
 void open_dropped(FlightState& flight, const std::filesystem::path& path) {
     const MeasurementFiles& files = flight.options.files;
     if (!files.is_one || !files.is_one(path)) return flight.desk.open(path);

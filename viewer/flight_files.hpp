@@ -23,6 +23,8 @@ Result<void> end_recording(FlightState& flight);
 void play_key_frames(FlightState& flight);
 
 void save_measurements(FlightState& flight);
+/// The current shape's, as `relevo measure viewshed` writes it.
+void save_viewshed(FlightState& flight);
 
 /// Measurements of a file are shown; anything else is opened.
 void open_dropped(FlightState& flight, const std::filesystem::path& path);

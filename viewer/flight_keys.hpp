@@ -40,6 +40,8 @@ enum class Command {
     tool_path,
     tool_area,
     tool_sight,
+    tool_viewshed,
+    save_viewshed,
     close,
 };
 

@@ -212,7 +212,7 @@ void Panels::side_panel(Desk& desk, ViewState& view, const HudContent& content, 
         const bool measured =
             std::exchange(measured_version_, measuring.tool().version()) != measuring.tool().version();
         if (ImGui::BeginTabItem("Measure", nullptr, measured ? ImGuiTabItemFlags_SetSelected : 0)) {
-            plot_m = draw_measure_panel(measuring, line_m, wishes);
+            plot_m = draw_measure_panel(desk.ui(), measuring, numbers_, line_m, wishes);
             ImGui::EndTabItem();
         }
         if (ImGui::BeginTabItem("Places")) {

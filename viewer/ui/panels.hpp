@@ -10,6 +10,7 @@
 #include "viewer/ui/desk.hpp"
 #include "viewer/ui/file_chooser.hpp"
 #include "viewer/ui/hud.hpp"
+#include "viewer/ui/number_box.hpp"
 #include "viewer/view_state.hpp"
 
 namespace relevo::viewer {
@@ -57,6 +58,7 @@ class Panels {
     void go_to(const Ui& ui, std::vector<Wish>& wishes);
 
     FileChooser chooser_;
+    NumberBox numbers_;
     std::size_t measured_version_ = 0;  // of the shapes when the panel was last drawn
     bool go_to_shown_ = false;
     bool go_to_fresh_ = false;
