@@ -12,6 +12,7 @@
 #include "app/command.hpp"
 #include "app/drape_flags.hpp"
 #include "app/ground_map_flag.hpp"
+#include "app/layer_files.hpp"
 #include "app/quick_import.hpp"
 #include "app/view_flags.hpp"
 #include "viewer/flight.hpp"
@@ -128,6 +129,7 @@ Result<Request> read_request(const WindowFlags& flags) {
     request.flight.record = flags.record.value_or("");
     request.flight.output_folder = flags.screenshot_dir;
     request.flight.files = measurement_files();
+    request.flight.layers = layer_files();
     return request;
 }
 
@@ -187,7 +189,8 @@ Result<void> run(const WindowFlags& flags) {
                                       .height = request->size.height,
                                       .ui_scale = flags.ui_scale,
                                       .settings = viewer::settings_file(),
-                                      .make_scene = quick_import});
+                                      .make_scene = quick_import,
+                                      .uses_of = layer_files().uses_of});
     if (!desk) return desk.error();
     if (!flags.scene.empty() && !*scene) desk->open(flags.scene);
 

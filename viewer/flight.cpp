@@ -50,8 +50,8 @@ class Flight {
 
     Result<FlightFigures> run() {
         while (!window_.should_close()) {
-            const bool busy =
-                flight_.desk.import() != nullptr || flight_.error.busy() || flight_.measuring.busy();
+            const bool busy = flight_.desk.import() != nullptr || flight_.error.busy() ||
+                              flight_.measuring.busy() || flight_.layers.opening();
             const bool idle = ground_rests() && !waves_move() && !flight_.motion.moving(window_) &&
                               flight_.options.frames == 0 && still_frames_ > kSettlingFrames &&
                               budget_rests();
@@ -94,11 +94,11 @@ class Flight {
         const lod::TileStore::Figures tiles = flight_.terrain.tiles().figures();
         if (flight_.view.method == Method::lstr) {
             const lod::ChunkStore::Figures nodes = mesher_.chunk_figures().store;
-            return renderer_.pending() + (nodes.memory_load <= 1 ? nodes.pending_groups : 0);
+            return renderer_->pending() + (nodes.memory_load <= 1 ? nodes.pending_groups : 0);
         }
         const bool coming =
             flight_.view.method == Method::soar && !tiles.starved();  // else they have no room
-        return renderer_.pending() + (coming ? tiles.pending_tiles : 0);
+        return renderer_->pending() + (coming ? tiles.pending_tiles : 0);
     }
 
     /// Has all arrived, and faded in?
@@ -125,6 +125,7 @@ class Flight {
         }
         flight_.desk.begin(input);
         flight_.measuring.update(units());
+        if (auto done = see_to_layers(); !done) return done;
         Input ground_input = for_the_ground(input);
         const lod::View seen = view_in(width, height);
         flight_.measuring.take_mouse(ground_input, seen, flight_.view.exaggeration,
@@ -134,9 +135,11 @@ class Flight {
         if (auto done = read_ground(view_in(width, height), ground_input); !done) return done;
         // After the ground is read: what a key copies is what the cursor, moved in the same moment, is at.
         flight_.screenshot_wanted = false;
-        for (const Input::Key& key : ground_input.pressed)
-            obey(flight_, {press_key(flight_.view, key), {}}, width, height);
-        for (const std::string& path : input.dropped) open_dropped(flight_, path);
+        for (const Input::Key& key : ground_input.pressed) {
+            const auto answer = flight_.panels.answer(key);
+            obey(flight_, answer ? *answer : Wish{press_key(flight_.view, key)}, width, height);
+        }
+        for (const std::string& path : input.dropped) open_path(flight_, path);
         if (flight_.recording) flight_.recording->see(flight_.view, start);
         const lod::View view = view_in(width, height);
         line_m_.reset();
@@ -162,6 +165,28 @@ class Flight {
         figures_.frames = frame_times_.count();
         figures_.width = width;
         figures_.height = height;
+        return {};
+    }
+
+    /// Takes in what layers have become since the last frame.
+    Result<void> see_to_layers() {
+        GroundLayers& layers = flight_.layers;
+        if (const auto opened = layers.take_opened()) {
+            if (*opened) {
+                flight_.say(fmt::format("layer {}", **opened));
+            } else {
+                flight_.tell(opened->error().message);
+            }
+        }
+        if (auto shown = layers.show_viewshed(flight_.measuring.viewshed()); !shown)
+            flight_.tell(shown.error().message);
+        if (!layers.take_changed()) return {};
+        // Anew: how they share the memory for textures depends on how many there are.
+        renderer_.reset();
+        auto renderer = Renderer::create(flight_.terrain, flight_.ground);
+        if (!renderer) return renderer.error();
+        renderer_.emplace(*std::move(renderer));
+        last_pending_ = Clock::now();
         return {};
     }
 
@@ -241,8 +266,8 @@ class Flight {
             flight_.view.method == Method::full ? flight_.view.tau_px : budget_.tau_px();
         refine_times_.add(ms_since(start));
         figures_.triangles = mesh.triangles();
-        renderer_.upload(mesh);
-        const auto drawn = renderer_.draw(view, draw_settings(flight_.view), *target_);
+        renderer_->upload(mesh);
+        const auto drawn = renderer_->draw(view, draw_settings(flight_.view), *target_);
         if (!drawn) return drawn.error();
         figures_.draw_calls = drawn->draw_calls;
         figures_.ocean = drawn->ocean;
@@ -289,7 +314,7 @@ class Flight {
             .panel_width = flight_.hidden ? 0 : flight_.panels.panel_width(flight_.desk),
             .tools = tools(),
             .facts = facts_,
-            .labels = labels_.labels(flight_.terrain, renderer_, flight_.view, view, ground_rests()),
+            .labels = labels_.labels(flight_.terrain, *renderer_, flight_.view, view, ground_rests()),
             .legend = legend(flight_.view.layer, span(),
                              flight_.view.ocean.kind != OceanKind::off && flight_.ground.facts.has_sea,
                              flight_.view.ramp.get()),
@@ -301,8 +326,9 @@ class Flight {
             draw_marks(content, flight_.measuring.drawn(flight_.view.exaggeration), pin, view);
             draw_handles(flight_.measuring.handles(flight_.view.exaggeration), view);
             draw_panels(content);
-            wishes = flight_.panels.draw(flight_.desk, flight_.view, content, flight_.scene_name(),
-                                         flight_.key_frames, flight_.measuring, line_m_, plot_m_);
+            wishes =
+                flight_.panels.draw(flight_.desk, flight_.view, content, flight_.scene_name(),
+                                    flight_.key_frames, flight_.measuring, flight_.layers, line_m_, plot_m_);
         }
         flight_.desk.end();
         return wishes;
@@ -323,7 +349,7 @@ class Flight {
 
     FlightState flight_;
     Window& window_;
-    Renderer renderer_;
+    std::optional<Renderer> renderer_;
     std::optional<RenderTarget> target_;
     Mesher mesher_;
     lod::HeightSampler sampler_;

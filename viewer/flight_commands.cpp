@@ -5,8 +5,10 @@
 #include "geo/coordinate_text.hpp"
 #include "viewer/camera.hpp"
 #include "viewer/flight_files.hpp"
+#include "viewer/overlay_list.hpp"
 #include "viewer/tool_list.hpp"
 #include "viewer/travel.hpp"
+#include "viewer/ui/layer_panel.hpp"
 
 namespace relevo::viewer {
 
@@ -33,6 +35,17 @@ void take_tool(FlightState& flight, Command command) {
     }
 }
 
+/// The next one down, from the lowest to the uppermost.
+void choose_layer(FlightState& flight) {
+    const Overlays& overlays = flight.view.overlays;
+    std::size_t& chosen = flight.panels.chosen_overlay;
+    if (overlays.empty()) return flight.tell("nothing lies over the ground");
+    chosen = chosen == 0 || chosen >= overlays.size() ? overlays.size() - 1 : chosen - 1;
+    flight.tell(fmt::format("{}: {} from above of {}; Shift O raises it",
+                            overlay_name(overlays[chosen], flight.ground.drapes), overlays.size() - chosen,
+                            overlays.size()));
+}
+
 }  // namespace
 
 void obey(FlightState& flight, const Wish& wish, int width, int height) {
@@ -45,6 +58,18 @@ void obey(FlightState& flight, const Wish& wish, int width, int height) {
             break;
         case Command::open_file:
             panels.show_chooser();
+            break;
+        case Command::open_path:
+            open_path(flight, wish.text);
+            break;
+        case Command::open_as:
+            open_as(flight, wish.text, wish.use);
+            break;
+        case Command::choose_layer:
+            choose_layer(flight);
+            break;
+        case Command::raise_layer:
+            panels.chosen_overlay = raise_overlay(view.overlays, panels.chosen_overlay);
             break;
         case Command::show_keys:
             panels.keys_shown = !panels.keys_shown;

@@ -100,14 +100,32 @@ void save_viewshed(FlightState& flight) {
     flight.say(fmt::format("viewshed {}", file.string()));
 }
 
-void open_dropped(FlightState& flight, const std::filesystem::path& path) {
-    const MeasurementFiles& files = flight.options.files;
-    if (!files.is_one || !files.is_one(path)) return flight.desk.open(path);
-    const auto loaded = files.load(path);
+void open_path(FlightState& flight, const std::filesystem::path& path) {
+    std::error_code failed;
+    const auto& uses_of = flight.options.layers.uses_of;
+    if (!uses_of || scene_at(path) || !std::filesystem::exists(path, failed)) return flight.desk.open(path);
+    const std::vector<FileUse> uses = uses_of(path);
+    if (uses.size() > 1) return flight.panels.ask_use(path, uses);
+    open_as(flight, path, uses.empty() ? FileUse::elevation : uses.front());
+}
+
+void open_as(FlightState& flight, const std::filesystem::path& path, FileUse use) {
+    switch (use) {
+        case FileUse::elevation:
+            return flight.desk.open(path);
+        case FileUse::imagery:
+        case FileUse::vectors:
+            if (auto begun = flight.layers.open(path, use, flight.options.layers); !begun)
+                flight.tell(begun.error().message);
+            return;
+        case FileUse::measurements:
+            break;
+    }
+    const auto loaded = flight.options.files.load(path);
     if (!loaded) return flight.tell(loaded.error().message);
     flight.measuring.tool().insert_shapes(*loaded);
     flight.desk.show_panel(true);
-    flight.tell(fmt::format("{}: {} measurements", path.filename().string(), loaded->size()));
+    flight.say(fmt::format("loaded {}: {} measurements", path.filename().string(), loaded->size()));
 }
 
 }  // namespace relevo::viewer

@@ -26,7 +26,9 @@ void save_measurements(FlightState& flight);
 /// The current shape's, as `relevo measure viewshed` writes it.
 void save_viewshed(FlightState& flight);
 
-/// Measurements of a file are shown; anything else is opened.
-void open_dropped(FlightState& flight, const std::filesystem::path& path);
+/// What a user expects of a file that was dropped or chosen, by what it holds: heights become a scene,
+/// pictures and lines lie over the ground, measurements are measured. Asks where it may be several.
+void open_path(FlightState& flight, const std::filesystem::path& path);
+void open_as(FlightState& flight, const std::filesystem::path& path, FileUse use);
 
 }  // namespace relevo::viewer

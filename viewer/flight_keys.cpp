@@ -82,6 +82,8 @@ Command press_key(ViewState& view, const Input::Key& key) {
         case GLFW_KEY_5:
             view.layer = Layer::terrain;
             break;
+        case GLFW_KEY_O:
+            return key.shift ? Command::raise_layer : Command::choose_layer;
         case GLFW_KEY_N:
             view.heading = view.roll = geo::Degrees{0};
             break;
@@ -172,7 +174,8 @@ std::span<const KeyHelp> key_list() {
                                         {"R", "record a flight, stop"},
                                         {"K  Shift K", "add a key frame, play them"},
                                         {"P  Ctrl P", "screenshot, large picture"},
-                                        {"Ctrl O", "open a scene or an elevation file"},
+                                        {"O  Shift O", "choose a layer over the ground, raise it"},
+                                        {"Ctrl O", "open a scene, heights, a picture, lines"},
                                         {"Tab F10 F11", "panel, light or dark, hide all"},
                                         {"F1  Ctrl Q", "this list, close"}};
     return kKeys;

@@ -9,6 +9,7 @@
 #include "lod/lstr/chunk_mesher.hpp"
 #include "viewer/flight_path.hpp"
 #include "viewer/frame_budget.hpp"
+#include "viewer/layer_files.hpp"
 #include "viewer/measuring.hpp"
 
 namespace relevo::viewer {
@@ -22,6 +23,7 @@ struct FlightOptions {
     lod::ChunkOptions chunks = {};        ///< how nodes are kept and loaded, with Method::lstr
     BudgetLimits budget = {};             ///< where it has limits, tau adapts to them
     MeasurementFiles files = {};          ///< how measurements are kept
+    LayerFiles layers = {};               ///< what else can be opened
     std::filesystem::path output_folder = ".";  ///< of pictures, flights and measurements
     /// Called with each line that the user asked for: copied coordinates, copied views, screenshots.
     std::function<void(const std::string&)> say = [](const std::string&) {};

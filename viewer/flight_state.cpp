@@ -15,7 +15,8 @@ FlightState::FlightState(Desk& at, const lod::Scene& over, const lod::Terrain& d
       options(asked),
       view(start),
       motion(drawn_terrain, eye_heights, asked.forward_m_s),
-      measuring(over, drawn_terrain, eye_heights) {
+      measuring(over, drawn_terrain, eye_heights),
+      layers(ground, view.overlays, drawn_terrain.frame()) {
     if (asked.play) motion.play(*asked.play);
     if (!asked.record.empty()) recording.emplace(asked.record);
 }

@@ -12,6 +12,7 @@
 #include "viewer/eye_height.hpp"
 #include "viewer/flight_options.hpp"
 #include "viewer/ground/ground_data.hpp"
+#include "viewer/ground_layers.hpp"
 #include "viewer/measuring.hpp"
 #include "viewer/motion.hpp"
 #include "viewer/recording.hpp"
@@ -30,13 +31,14 @@ struct FlightState {
     Desk& desk;
     const lod::Scene& scene;
     const lod::Terrain& terrain;
-    const GroundData& ground;
+    GroundData ground;  ///< layers change it
     const EyeHeight& heights;
     const FlightOptions& options;
 
     ViewState view;
     Motion motion;
     Measuring measuring;
+    GroundLayers layers;
     Panels panels;
     Panels::KeyFrames key_frames;
     ErrorProbe error;

@@ -148,6 +148,18 @@ Handles Measuring::handles(double exaggeration) const {
     return found;
 }
 
+std::shared_ptr<const lod::Viewshed> Measuring::viewshed() {
+    bool still_there = false;
+    for (std::size_t i = 0; i < tool_.shapes().size(); ++i) {
+        const ShapeResult* result = results_.find(tool_.shapes()[i]);
+        if (result == nullptr || !result->viewshed) continue;
+        if (tool_.current() == i) return viewshed_ = result->viewshed;
+        still_there = still_there || result->viewshed == viewshed_;
+    }
+    if (!still_there) viewshed_.reset();
+    return viewshed_;
+}
+
 void Measuring::click(geo::LatLon place) {
     tool_.add(place);
     just_clicked_ = true;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -60,6 +61,8 @@ class Measuring {
     /// Once a frame: results that are there, and work for those that are not.
     void update(geo::UnitSystem units) { results_.update(tool_.shapes(), units); }
     bool busy() const { return results_.busy(); }
+    /// Of the shape that was current last among those that have one; null: none.
+    std::shared_ptr<const lod::Viewshed> viewshed();
 
     ShapeResults& results() { return results_; }
 
@@ -91,6 +94,7 @@ class Measuring {
     std::optional<MeasureTool::Vertex> held_;
     std::optional<MeasureTool::Vertex> hovered_;
     std::optional<MeasureTool::Vertex> chosen_;
+    std::shared_ptr<const lod::Viewshed> viewshed_;
     bool just_clicked_ = false;
 };
 
