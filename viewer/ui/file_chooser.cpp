@@ -60,6 +60,7 @@ void FileChooser::show() {
     std::error_code failed;
     if (folder_.empty()) folder_ = fs::current_path(failed);
     enter(folder_);
+    typed_.clear();
     shown_ = fresh_ = true;
 }
 
