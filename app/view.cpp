@@ -13,6 +13,7 @@
 #include "app/drape_flags.hpp"
 #include "app/ground_map_flag.hpp"
 #include "app/layer_files.hpp"
+#include "app/overlay_json.hpp"
 #include "app/quick_import.hpp"
 #include "app/view_flags.hpp"
 #include "viewer/flight.hpp"
@@ -34,6 +35,10 @@ struct WindowFlags {
 };
 
 nlohmann::json to_json(const viewer::FlightFigures& figures) {
+    nlohmann::json gl_objects = nlohmann::json::object();
+    for (int i = 0; i < viewer::kGlKinds; ++i)
+        gl_objects[to_string(static_cast<viewer::GlKind>(i))] =
+            figures.gl_objects[static_cast<std::size_t>(i)];
     return {{"frames", figures.frames},
             {"frame_ms_median", figures.frame_ms_median},
             {"frame_ms_p99", figures.frame_ms_p99},
@@ -43,6 +48,8 @@ nlohmann::json to_json(const viewer::FlightFigures& figures) {
             {"frames_within_budget",
              figures.frames_within_budget ? nlohmann::json(*figures.frames_within_budget) : nullptr},
             {"draw_calls", figures.draw_calls},
+            {"overlays", overlays_json(figures.overlays)},
+            {"gl_objects", std::move(gl_objects)},
             {"width", figures.width},
             {"height", figures.height},
             {"samples", figures.samples},

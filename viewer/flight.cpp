@@ -73,6 +73,8 @@ class Flight {
         figures_.frame_ms_p99 = frame_times_.quantile(0.99);
         figures_.refine_ms_median = refine_times_.quantile(0.5);
         figures_.view = flight_.view;
+        figures_.overlays = overlay_figures(*renderer_, draw_settings(flight_.view));
+        figures_.gl_objects = gl_counts();
         if (flight_.options.budget.any() && figures_.frames > 0) {
             figures_.frames_within_budget =
                 static_cast<double>(within_budget_) / static_cast<double>(figures_.frames);

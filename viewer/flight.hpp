@@ -3,14 +3,17 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "geo/result.hpp"
 #include "lod/scene/scene.hpp"
 #include "lod/terrain.hpp"
 #include "viewer/eye_height.hpp"
 #include "viewer/flight_options.hpp"
+#include "viewer/gl_object.hpp"
 #include "viewer/ground/ground_data.hpp"
 #include "viewer/ocean/ocean.hpp"
+#include "viewer/overlay_figures.hpp"
 #include "viewer/ui/desk.hpp"
 #include "viewer/view_state.hpp"
 
@@ -22,9 +25,11 @@ struct FlightFigures {
         0;                    ///< refinement, upload, drawing, read-out and showing; without the first frame,
     double frame_ms_p99 = 0;  ///< which compiles the programs
     double refine_ms_median = 0;
-    std::uint64_t triangles = 0;  ///< of the last frame
-    int draw_calls = 0;           ///< of the last frame, without the read-out's
-    OceanFigures ocean;           ///< of the last frame
+    std::uint64_t triangles = 0;           ///< of the last frame
+    int draw_calls = 0;                    ///< of the last frame, without the read-out's
+    OceanFigures ocean;                    ///< of the last frame
+    std::vector<OverlayFigures> overlays;  ///< of the last frame
+    GlCounts gl_objects{};                 ///< when it ended
     int width = 0;
     int height = 0;
     int samples = 1;

@@ -145,5 +145,65 @@ TEST_F(WindowLayersTest, AGreyPictureIsAskedAbout) {
     close();
 }
 
+/// What a run says of itself at its end.
+class WindowCountersTest : public WindowLayersTest {
+  protected:
+    json figures_of(const std::string& flags) {
+        start(std::string(kMap) + " --json --frames 6 " + flags);
+        EXPECT_EQ(desktop_.wait_for_exit(program_), 0) << contents(folder_ / "err");
+        return json::parse(contents(folder_ / "out"));
+    }
+};
+
+TEST_F(WindowCountersTest, ALayerThatIsOffMakesNoGlObjectAndLoadsNoTile) {
+    const fs::path picture = write_picture("white.tif");
+    const json never = figures_of("");
+    EXPECT_EQ(never["overlays"], json::array());
+    EXPECT_GT(never["gl_objects"]["textures"], 0);
+
+    const json on = figures_of("--contours auto --imagery " + picture.string());
+    ASSERT_EQ(on["overlays"].size(), 2u);
+    EXPECT_EQ(on["overlays"][0]["overlay"], "imagery:0:1");
+    EXPECT_GE(on["overlays"][0]["tiles"], 1);
+    EXPECT_EQ(on["overlays"][0]["gl_objects"], 3);
+    EXPECT_GT(on["overlays"][0]["bytes"], 0);
+    EXPECT_EQ(on["overlays"][1]["tiles"], 0);
+    EXPECT_EQ(on["gl_objects"]["textures"], never["gl_objects"]["textures"].get<int>() + 2);
+    EXPECT_EQ(on["gl_objects"]["buffers"], never["gl_objects"]["buffers"].get<int>() + 2);
+}
+
+TEST_F(WindowCountersTest, ALayerThatIsSwitchedOffLeavesNothingBehind) {
+    const json never = figures_of("");
+    const fs::path picture = write_picture("white.tif");
+    open(std::string(kMap) + " --json --contours auto --graticule utm --imagery " + picture.string());
+    std::string view = last_view().substr(5);
+    const auto from = view.find("/overlays=");
+    ASSERT_NE(from, std::string::npos) << view;
+    view.erase(from, view.find('/', from + 1) - from);
+    go_to(view + "/overlays=none");
+    EXPECT_EQ(last_view().find("imagery"), std::string::npos);
+    close();
+    const json off = json::parse(contents(folder_ / "out"));
+    EXPECT_EQ(off["overlays"], json::array());
+    for (const auto& [kind, count] : never["gl_objects"].items()) {
+        if (kind == "programs") continue;
+        EXPECT_EQ(off["gl_objects"][kind], count) << kind;
+    }
+    EXPECT_EQ(off["gl_objects"]["programs"], never["gl_objects"]["programs"].get<int>() + 1)
+        << "the ground's with overlays is kept for the next time";
+}
+
+TEST_F(WindowCountersTest, AFileWhoseLayerIsOffFromTheBeginningIsNotLoaded) {
+    const fs::path picture = write_picture("white.tif");
+    const json never = figures_of("");
+    start(std::string("--json --frames 6 --ocean off --imagery ") + picture.string() +
+          " --layer plain --at 35.982222,138.017778,6000/heading=0/pitch=-90/fov=30");
+    EXPECT_EQ(desktop_.wait_for_exit(program_), 0) << contents(folder_ / "err");
+    const json plain = json::parse(contents(folder_ / "out"));
+    EXPECT_EQ(plain["overlays"], json::array()) << "the plain layer takes none";
+    EXPECT_LE(plain["gl_objects"]["textures"], never["gl_objects"]["textures"]);
+    EXPECT_EQ(plain["gl_objects"]["buffers"], never["gl_objects"]["buffers"]);
+}
+
 }  // namespace
 }  // namespace relevo::test
