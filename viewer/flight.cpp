@@ -314,6 +314,7 @@ class Flight {
             .cursor_is_preview = cursor_is_preview_,
             .keys_shown = flight_.panels.keys_shown,
             .panel_width = flight_.hidden ? 0 : flight_.panels.panel_width(flight_.desk),
+            .covered = flight_.hidden ? Covered{} : covered_,
             .tools = tools(),
             .facts = facts_,
             .labels = labels_.labels(flight_.terrain, *renderer_, flight_.view, view, ground_rests()),
@@ -327,7 +328,8 @@ class Flight {
             if (plot_m_) pin = flight_.measuring.place_at(*plot_m_, flight_.view.exaggeration);
             draw_marks(content, flight_.measuring.drawn(flight_.view.exaggeration), pin, view);
             draw_handles(flight_.measuring.handles(flight_.view.exaggeration), view);
-            draw_panels(content);
+            covered_ = draw_panels(content);
+            flight_.panels.add_covered(flight_.desk, covered_);
             wishes =
                 flight_.panels.draw(flight_.desk, flight_.view, content, flight_.scene_name(),
                                     flight_.key_frames, flight_.measuring, flight_.layers, line_m_, plot_m_);
@@ -364,6 +366,7 @@ class Flight {
     std::optional<double> line_m_;  // along the current shape, where the cursor is on the ground
     std::optional<double> plot_m_;  // likewise, where it is in the profile
     LabelKeeper labels_;
+    Covered covered_;  // by panels, in the last frame
     Clock::time_point last_frame_ = Clock::now();
     Clock::time_point last_pending_{};
     int still_frames_ = 0;

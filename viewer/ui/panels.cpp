@@ -105,6 +105,20 @@ float Panels::panel_width(const Desk& desk) const {
     return std::min(20 * ImGui::GetFontSize(), 0.45f * ImGui::GetIO().DisplaySize.x);
 }
 
+Box Panels::side_box(const Desk& desk) const {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    const float letter = ImGui::GetFontSize();
+    // The line at the bottom is left free.
+    return {size.x - panel_width(desk), ImGui::GetFrameHeightWithSpacing() + letter, size.x,
+            size.y - 4.2f * letter};
+}
+
+void Panels::add_covered(const Desk& desk, Covered& covered) const {
+    covered.add({0, 0, ImGui::GetIO().DisplaySize.x,
+                 ImGui::GetFrameHeightWithSpacing() + 2 * ImGui::GetStyle().WindowPadding.y});
+    if (desk.panel_shown()) covered.add(side_box(desk));
+}
+
 void Panels::toolbar(Desk& desk, const HudContent& content, std::vector<Wish>& wishes) {
     ImGui::SetNextWindowPos({0, 0});
     ImGui::SetNextWindowSize({ImGui::GetIO().DisplaySize.x, 0});
@@ -165,12 +179,9 @@ void Panels::side_panel(Desk& desk, ViewState& view, const HudContent& content, 
                         KeyFrames& frames, Measuring& measuring, GroundLayers& layers,
                         const std::optional<double>& line_m, std::optional<double>& plot_m,
                         std::vector<Wish>& wishes) {
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const float letter = ImGui::GetFontSize();
-    const float top = ImGui::GetFrameHeightWithSpacing() + letter;
-    const float width = panel_width(desk);
-    ImGui::SetNextWindowPos({size.x - width, top});
-    ImGui::SetNextWindowSize({width, size.y - top - 3 * letter});
+    const Box box = side_box(desk);
+    ImGui::SetNextWindowPos({box.left, box.top});
+    ImGui::SetNextWindowSize({box.right - box.left, box.bottom - box.top});
     ImGui::Begin("panel", nullptr, kFixed & ~ImGuiWindowFlags_NoScrollbar);
     if (ImGui::BeginTabBar("tabs")) {
         if (ImGui::BeginTabItem("Layers")) {

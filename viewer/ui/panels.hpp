@@ -43,6 +43,8 @@ class Panels {
 
     /// Of the side panel as it is drawn; 0 while it is hidden.
     float panel_width(const Desk& desk) const;
+    /// Adds the tool bar and the side panel. \pre as of draw
+    void add_covered(const Desk& desk, Covered& covered) const;
 
     void show_go_to() { go_to_shown_ = go_to_fresh_ = true; }
     void complain_of_go_to(std::string why) { go_to_fault_ = std::move(why), go_to_shown_ = true; }
@@ -58,6 +60,7 @@ class Panels {
     std::size_t chosen_overlay = 0;  ///< which one keys move
 
   private:
+    Box side_box(const Desk& desk) const;
     void toolbar(Desk& desk, const HudContent& content, std::vector<Wish>& wishes);
     void side_panel(Desk& desk, ViewState& view, const HudContent& content, const std::string& scene,
                     KeyFrames& frames, Measuring& measuring, GroundLayers& layers,
