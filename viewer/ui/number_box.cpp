@@ -21,7 +21,12 @@ bool NumberBox::draw(const Ui& ui, const char* label, double& value, double leas
     } else if (typed_in_ == box) {
         typed_in_ = 0;
     }
-    if (!ImGui::IsItemDeactivatedAfterEdit() && !ui.entered()) return false;
+    const bool entered = ui.entered();
+    if (!ImGui::IsItemDeactivatedAfterEdit() && !entered) return false;
+    if (entered) {  // keys are commands again, also where Dear ImGui has not seen this one
+        ImGui::SetWindowFocus(nullptr);
+        typed_in_ = 0;
+    }
     const auto numbers = parse_numbers(text);
     if (!numbers || numbers->size() != 1) return false;  // as it was
     const double typed = std::clamp(numbers->front(), least, most);
