@@ -9,6 +9,7 @@
 #include "geo/geodesic.hpp"
 #include "lod/measure/height_sampler.hpp"
 #include "tests/app/run_program.hpp"
+#include "tests/shared_data.hpp"
 #include "tests/viewer/window_fixture.hpp"
 #include "viewer/camera.hpp"
 
@@ -153,6 +154,35 @@ TEST_F(WindowMeasureTest, AViewshedIsThatOfTheCommandLineToTheLastByte) {
     for (const char* key : {"visible_posts", "hidden_posts", "visible_area_m2", "eye_H_m"})
         EXPECT_EQ(seen[key], command[key]) << key;
     close();
+}
+
+TEST_F(WindowMeasureTest, ClosingDoesNotWaitForAViewshed) {
+    RELEVO_NEEDS_DATA("mountains/mt_rainier_90m.tif");
+    const std::string scene = (folder_ / "rainier.relevo").string();
+    ASSERT_EQ(relevo(fmt::format("ingest {} -o {} --quiet",
+                                 shared_data("mountains/mt_rainier_90m.tif").string(), scene))
+                  .status,
+              0);
+    start({scene}, "--at 46.78,-121.76,9000/heading=0/pitch=-90/fov=50");
+    ASSERT_TRUE(desktop_.wait_for_window());
+    press("F7");
+    click(200, 480);
+    press("Tab");
+    wait_ms(800);
+    // The eye's height and the radius, in letters of 15 pixels: a line of sight to a million posts.
+    for (const auto& [y, number] : {std::pair(137, "2000"), std::pair(212, "60000")}) {
+        click(555, y);
+        desktop_.xdotool(fmt::format("type --delay 60 {}", number));
+        wait_ms(300);
+        press("Return");
+        wait_ms(500);
+    }
+    wait_ms(500);
+    const auto start = std::chrono::steady_clock::now();
+    press("ctrl+q");
+    EXPECT_EQ(desktop_.wait_for_exit(program_), 0) << contents(folder_ / "err");
+    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 3)
+        << "the whole takes some 15 s";
 }
 
 }  // namespace
