@@ -240,10 +240,11 @@ std::optional<Wish> Panels::answer(const Input::Key& key) {
     return wish;
 }
 
-void Panels::use_question(std::vector<Wish>& wishes) {
+void Panels::use_question(const Desk& desk, std::vector<Wish>& wishes) {
     if (asked_file_.empty()) return;
     const ImVec2 size = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({0.5f * size.x, 0.4f * size.y}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowPos({0.5f * (size.x - panel_width(desk)), 0.4f * size.y}, ImGuiCond_Always,
+                            {0.5f, 0.5f});
     ImGui::Begin("question", nullptr, kFixed | ImGuiWindowFlags_AlwaysAutoResize);
     ImGui::Text("%s may be several things. Open it as", asked_file_.filename().string().c_str());
     std::optional<FileUse> use;
@@ -293,7 +294,7 @@ std::vector<Wish> Panels::draw(Desk& desk, ViewState& view, const HudContent& co
         side_panel(desk, view, content, scene, frames, measuring, layers, line_m, plot_m, wishes);
     go_to(desk.ui(), wishes);
     desk.draw_import();
-    use_question(wishes);
+    use_question(desk, wishes);
     if (const auto chosen = chooser_.draw(desk.ui()))
         wishes.push_back({Command::open_path, chosen->string()});
     return wishes;

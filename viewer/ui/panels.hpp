@@ -68,7 +68,7 @@ class Panels {
                     std::vector<Wish>& wishes);
     void places(Desk& desk, const std::string& scene, KeyFrames& frames, std::vector<Wish>& wishes);
     void sun(const Ui& ui, ViewState& view);
-    void use_question(std::vector<Wish>& wishes);
+    void use_question(const Desk& desk, std::vector<Wish>& wishes);
     void go_to(const Ui& ui, std::vector<Wish>& wishes);
 
     FileChooser chooser_;
