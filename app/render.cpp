@@ -10,6 +10,7 @@
 #include "app/command.hpp"
 #include "app/drape_flags.hpp"
 #include "app/ground_map_flag.hpp"
+#include "app/overlay_json.hpp"
 #include "app/render_frames.hpp"
 #include "app/view_flags.hpp"
 #include "viewer/bench/machine.hpp"
@@ -72,15 +73,10 @@ nlohmann::json to_json(const viewer::ViewState& view, const viewer::PictureReque
                         {"ocean_triangles", figures.ocean.triangles},
                         {"ocean_draw_calls", figures.ocean.draw_calls},
                         {"ocean_ms", figures.ocean.arrange_ms + figures.ocean.draw_ms},
-                        {"overlays", nlohmann::json::array()},
+                        {"overlays", overlays_json(figures.overlays)},
                         {"gl_renderer", figures.gl},
                         {"at", to_string(view)}};
     if (figures.ocean.kind != viewer::OceanKind::off) json["ocean"] = to_string(figures.ocean.kind);
-    for (const auto& overlay : figures.overlays)
-        json["overlays"].push_back({{"overlay", to_string(viewer::Overlays{overlay.overlay})},
-                                    {"tiles", overlay.tiles},
-                                    {"gl_objects", overlay.gl_objects},
-                                    {"bytes", overlay.bytes}});
     if (view.method == viewer::Method::full) json["tau_px"] = json["tau_reached_px"] = nullptr;
     if (figures.error) {
         json["max_error_px"] = figures.error->max_px;

@@ -5,12 +5,15 @@
 #include <string>
 
 #include "output/measurement_file.hpp"
+#include "output/viewshed_file.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "app/command.hpp"
 #include "app/drape_flags.hpp"
 #include "app/ground_map_flag.hpp"
+#include "app/layer_files.hpp"
+#include "app/overlay_json.hpp"
 #include "app/quick_import.hpp"
 #include "app/view_flags.hpp"
 #include "viewer/flight.hpp"
@@ -32,6 +35,10 @@ struct WindowFlags {
 };
 
 nlohmann::json to_json(const viewer::FlightFigures& figures) {
+    nlohmann::json gl_objects = nlohmann::json::object();
+    for (int i = 0; i < viewer::kGlKinds; ++i)
+        gl_objects[to_string(static_cast<viewer::GlKind>(i))] =
+            figures.gl_objects[static_cast<std::size_t>(i)];
     return {{"frames", figures.frames},
             {"frame_ms_median", figures.frame_ms_median},
             {"frame_ms_p99", figures.frame_ms_p99},
@@ -41,6 +48,8 @@ nlohmann::json to_json(const viewer::FlightFigures& figures) {
             {"frames_within_budget",
              figures.frames_within_budget ? nlohmann::json(*figures.frames_within_budget) : nullptr},
             {"draw_calls", figures.draw_calls},
+            {"overlays", overlays_json(figures.overlays)},
+            {"gl_objects", std::move(gl_objects)},
             {"width", figures.width},
             {"height", figures.height},
             {"samples", figures.samples},
@@ -84,7 +93,11 @@ viewer::MeasurementFiles measurement_files() {
         }
         return output::save_measurements(file, records, false);
     };
-    return {output::is_measurement_file, output::load_measurements, save};
+    const auto save_viewshed = [](const lod::SceneInfo& info, const lod::Viewshed& shed,
+                                  const std::filesystem::path& file) {
+        return output::write_viewshed(file, info, shed, false);
+    };
+    return {output::is_measurement_file, output::load_measurements, save, save_viewshed};
 }
 
 /// What the flags say of the view and of the flight, for whichever scene.
@@ -123,6 +136,7 @@ Result<Request> read_request(const WindowFlags& flags) {
     request.flight.record = flags.record.value_or("");
     request.flight.output_folder = flags.screenshot_dir;
     request.flight.files = measurement_files();
+    request.flight.layers = layer_files();
     return request;
 }
 
@@ -182,7 +196,8 @@ Result<void> run(const WindowFlags& flags) {
                                       .height = request->size.height,
                                       .ui_scale = flags.ui_scale,
                                       .settings = viewer::settings_file(),
-                                      .make_scene = quick_import});
+                                      .make_scene = quick_import,
+                                      .uses_of = layer_files().uses_of});
     if (!desk) return desk.error();
     if (!flags.scene.empty() && !*scene) desk->open(flags.scene);
 

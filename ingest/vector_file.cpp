@@ -115,6 +115,19 @@ double distance_to(const VectorFile::Segment& s, double x, double y) {
 
 }  // namespace
 
+bool is_vector_file(const std::string& file) {
+    if (!check_input_name(file, {})) return false;
+    GDALAllRegister();
+    const GdalMessages messages;
+    const GDALDatasetUniquePtr opened(
+        GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, kDrivers.data()));
+    if (!opened) return false;
+    for (OGRLayer* layer : opened->GetLayers()) {
+        if (layer->GetGeomType() != wkbNone) return true;
+    }
+    return false;
+}
+
 VectorFile::VectorFile(const geo::GridFrame& frame) : frame_(frame), bins_(kBins * kBins) {}
 
 Result<std::shared_ptr<const VectorFile>> VectorFile::open(const std::string& file,

@@ -12,6 +12,9 @@
 
 namespace relevo::ingest {
 
+/// Is a file in a format that VectorFile reads, with a layer of geometries in it?
+bool is_vector_file(const std::string& file);
+
 /// Lines and points of a file, as they lie on a scene's grid, to be drawn into texels. Polygons are their
 /// rings.
 class VectorFile {

@@ -82,6 +82,8 @@ Command press_key(ViewState& view, const Input::Key& key) {
         case GLFW_KEY_5:
             view.layer = Layer::terrain;
             break;
+        case GLFW_KEY_O:
+            return key.shift ? Command::raise_layer : Command::choose_layer;
         case GLFW_KEY_N:
             view.heading = view.roll = geo::Degrees{0};
             break;
@@ -113,6 +115,8 @@ Command press_key(ViewState& view, const Input::Key& key) {
             return Command::tool_area;
         case GLFW_KEY_F6:
             return Command::tool_sight;
+        case GLFW_KEY_F7:
+            return Command::tool_viewshed;
         case GLFW_KEY_F8:
             return Command::measure_error;
         case GLFW_KEY_F10:
@@ -154,9 +158,11 @@ std::span<const KeyHelp> key_list() {
                                         {"N  H  Home", "north up, level, the whole scene"},
                                         {"T", "follow the ground"},
                                         {"F2 F3 F4", "measure a point, a line, a path"},
-                                        {"F5 F6", "an area, a line of sight"},
+                                        {"F5 F6 F7", "an area, a line of sight, a viewshed"},
                                         {"click", "set a point; drag one to move it"},
-                                        {"Enter  Esc  Del", "finish, clear, delete a point"},
+                                        {"right click, Del on a point", "delete it"},
+                                        {"drag a side's middle", "a new point there"},
+                                        {"Enter  Esc  Del", "finish, clear, take back a point"},
                                         {"Ctrl Z, Y", "undo, redo"},
                                         {"Ctrl S", "save what is measured"},
                                         {"1 2 3 4 5", "tints, hillshade, slope, levels, terrain"},
@@ -168,7 +174,8 @@ std::span<const KeyHelp> key_list() {
                                         {"R", "record a flight, stop"},
                                         {"K  Shift K", "add a key frame, play them"},
                                         {"P  Ctrl P", "screenshot, large picture"},
-                                        {"Ctrl O", "open a scene or an elevation file"},
+                                        {"O  Shift O", "choose a layer over the ground, raise it"},
+                                        {"Ctrl O", "open a scene, heights, a picture, lines"},
                                         {"Tab F10 F11", "panel, light or dark, hide all"},
                                         {"F1  Ctrl Q", "this list, close"}};
     return kKeys;

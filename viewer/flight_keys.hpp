@@ -10,7 +10,11 @@ namespace relevo::viewer {
 /// What a key or a button asks for beyond a change of how the view is drawn.
 enum class Command {
     none,
-    open_file,
+    open_file,     ///< asks which one
+    open_path,     ///< a file or folder that is named
+    open_as,       ///< likewise, and as what
+    choose_layer,  ///< the next one down of what is over the ground
+    raise_layer,   ///< the chosen one by one; the uppermost becomes the lowest
     show_keys,
     show_panel,
     hide_all,  ///< panels and read-outs: the ground alone
@@ -40,6 +44,8 @@ enum class Command {
     tool_path,
     tool_area,
     tool_sight,
+    tool_viewshed,
+    save_viewshed,
     close,
 };
 

@@ -1,10 +1,47 @@
 #include "viewer/gl_object.hpp"
 
+#include <atomic>
 #include <cassert>
 
 #include <epoxy/gl.h>
 
 namespace relevo::viewer {
+
+namespace {
+
+std::array<std::atomic<int>, kGlKinds> counts;
+
+}  // namespace
+
+GlCounts gl_counts() {
+    GlCounts now{};
+    for (std::size_t i = 0; i < now.size(); ++i) now[i] = counts[i];
+    return now;
+}
+
+void count_gl(GlKind kind, int more) {
+    counts[static_cast<std::size_t>(kind)] += more;
+}
+
+const char* to_string(GlKind kind) {
+    switch (kind) {
+        case GlKind::buffer:
+            return "buffers";
+        case GlKind::framebuffer:
+            return "framebuffers";
+        case GlKind::program:
+            return "programs";
+        case GlKind::query:
+            return "queries";
+        case GlKind::renderbuffer:
+            return "renderbuffers";
+        case GlKind::texture:
+            return "textures";
+        case GlKind::vertex_array:
+            break;
+    }
+    return "vertex_arrays";
+}
 
 GlName create_gl(GlKind kind) {
     GLuint name = 0;

@@ -28,6 +28,7 @@ struct Input {
     std::optional<glm::dvec2> right_pressed_at;  ///< likewise
     std::optional<glm::dvec2> middle_pressed_at;
     std::vector<glm::dvec2> clicks;          ///< of the left button: down and up again in one place
+    std::vector<glm::dvec2> right_clicks;    ///< likewise of the right one
     std::optional<glm::dvec2> double_click;  ///< the second of two clicks, which is in `clicks` too
     std::vector<std::string> dropped;        ///< files and folders
     double wheel = 0;                        ///< turns, up is positive

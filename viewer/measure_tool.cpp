@@ -14,6 +14,7 @@ constexpr std::size_t kMostSteps = 200;
 std::size_t whole_with(Tool tool) {
     switch (tool) {
         case Tool::point:
+        case Tool::viewshed:
             return 1;
         case Tool::line:
         case Tool::sight:
@@ -48,6 +49,8 @@ const char* name_of(Tool tool) {
             return "area";
         case Tool::sight:
             return "sight";
+        case Tool::viewshed:
+            return "viewshed";
     }
     return "";
 }
@@ -55,7 +58,7 @@ const char* name_of(Tool tool) {
 }  // namespace
 
 bool is_measurable(const Shape& shape) {
-    const std::size_t least = shape.tool == Tool::area ? 3 : shape.tool == Tool::point ? 1 : 2;
+    const std::size_t least = shape.tool == Tool::area ? 3 : whole_with(shape.tool) == 1 ? 1 : 2;
     return shape.measurement.vertices.size() >= least;
 }
 
@@ -84,7 +87,9 @@ void MeasureTool::add(geo::LatLon place) {
     if (!current_ || !shapes_[*current_].open || shapes_[*current_].tool != tool_) {
         current_ = shapes_.size();
         shapes_.push_back(
-            {tool_, {fmt::format("{} {}", name_of(tool_), shapes_.size() + 1), kind_of(tool_), {}}});
+            {.tool = tool_,
+             .measurement = {fmt::format("{} {}", name_of(tool_), shapes_.size() + 1), kind_of(tool_), {}},
+             .choices = choices_});
     }
     Shape& shape = shapes_[*current_];
     shape.measurement.vertices.push_back(place);
@@ -108,18 +113,42 @@ void MeasureTool::move(const Vertex& vertex, geo::LatLon place) {
     ++version_;
 }
 
+void MeasureTool::begin_insert(const Vertex& vertex, geo::LatLon place) {
+    keep();
+    current_ = vertex.shape;
+    std::vector<geo::LatLon>& places = shapes_[vertex.shape].measurement.vertices;
+    places.insert(places.begin() + static_cast<std::ptrdiff_t>(vertex.vertex), place);
+}
+
 void MeasureTool::insert_shapes(const std::vector<lod::Measurement>& measurements) {
     if (measurements.empty()) return;
     finish();
     keep();
     for (const lod::Measurement& measurement : measurements)
-        shapes_.push_back({tool_of(measurement), measurement, false});
+        shapes_.push_back({.tool = tool_of(measurement), .measurement = measurement, .open = false});
     current_ = shapes_.size() - 1;
 }
 
 void MeasureTool::rename(std::size_t shape, std::string name) {
     keep();
     shapes_[shape].measurement.name = std::move(name);
+}
+
+void MeasureTool::choose(std::size_t shape, const MeasureChoices& choices) {
+    keep();
+    shapes_[shape].choices = choices_ = choices;
+}
+
+void MeasureTool::delete_vertex(const Vertex& vertex) {
+    if (shapes_[vertex.shape].measurement.vertices.size() <= 1) return delete_shape(vertex.shape);
+    keep();
+    current_ = vertex.shape;
+    Shape& shape = shapes_[vertex.shape];
+    std::vector<geo::LatLon>& places = shape.measurement.vertices;
+    places.erase(places.begin() + static_cast<std::ptrdiff_t>(vertex.vertex));
+    if (is_measurable(shape)) return;
+    shape.open = true;
+    tool_ = shape.tool;
 }
 
 void MeasureTool::delete_vertex() {

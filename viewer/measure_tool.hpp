@@ -5,17 +5,28 @@
 #include <vector>
 
 #include "lod/measure/measurement.hpp"
+#include "lod/measure/plane.hpp"
+#include "lod/measure/sight.hpp"
 
 namespace relevo::viewer {
 
 /// What a click on the ground is for.
-enum class Tool { point, line, path, area, sight };
+enum class Tool { point, line, path, area, sight, viewshed };
+
+/// What a measurement depends on besides its places.
+struct MeasureChoices {
+    lod::Plane plane;        ///< of an area's volumes
+    lod::Looking looking;    ///< of a line of sight and a viewshed
+    double radius_m = 5000;  ///< of a viewshed
+    friend bool operator==(const MeasureChoices&, const MeasureChoices&) = default;
+};
 
 /// A measurement in the making or made, and with which tool.
 struct Shape {
     Tool tool = Tool::line;
     lod::Measurement measurement;
     bool open = true;  ///< the next click adds a vertex
+    MeasureChoices choices = {};
 };
 
 /// Has a shape of a tool enough vertices to be measured?
@@ -40,8 +51,9 @@ class MeasureTool {
     const std::optional<std::size_t>& current() const { return current_; }
     void select(std::size_t shape) { current_ = shape; }
 
-    /// A click on the ground: the next vertex of the open shape, else the first of a new one. A point, a line
-    /// and a line of sight are finished by their last vertex.
+    /// A click on the ground: the next vertex of the open shape, else the first of a new one, with the
+    /// choices that were made last. Points, lines, lines of sight and viewsheds are finished by their last
+    /// vertex.
     void add(geo::LatLon place);
     /// Ends an open path or area; one that is not enough goes.
     void finish();
@@ -49,9 +61,15 @@ class MeasureTool {
     /// Moves a vertex; all moves from begin_move on are one step for undo.
     void begin_move(const Vertex& vertex);
     void move(const Vertex& vertex, geo::LatLon place);
+    /// A new vertex before which the one of this number was (or the first, of an area), to be moved on in the
+    /// same step.
+    void begin_insert(const Vertex& vertex, geo::LatLon place);
 
     void insert_shapes(const std::vector<lod::Measurement>& measurements);
     void rename(std::size_t shape, std::string name);
+    void choose(std::size_t shape, const MeasureChoices& choices);
+    /// Any vertex; what is not enough any more is open again, and a shape that has no other goes.
+    void delete_vertex(const Vertex& vertex);
     /// The last vertex of the current shape, and with it a shape that has no other.
     void delete_vertex();
     void delete_shape(std::size_t shape);
@@ -72,6 +90,7 @@ class MeasureTool {
     void restore(std::vector<State>& from, std::vector<State>& to);
 
     Tool tool_ = Tool::line;
+    MeasureChoices choices_;  // of the next shape
     std::vector<Shape> shapes_;
     std::optional<std::size_t> current_;
     std::vector<State> undone_;  // oldest first: what redo() goes back to

@@ -158,11 +158,7 @@ Result<FinishedPicture> OffscreenPainter::draw(const ViewState& asked, const Pic
             target->read_into(made.picture, x, y);
         }
     }
-    for (const Overlay& overlay : settings.overlays) {
-        const bool of_file = overlay.kind == Overlay::Kind::imagery || overlay.kind == Overlay::Kind::vectors;
-        const auto drape = of_file ? renderer_.drape_figures(overlay.file) : OverlayDrawing::DrapeFigures{};
-        figures.overlays.push_back({overlay, drape.tiles, drape.gl_objects, drape.bytes});
-    }
+    figures.overlays = overlay_figures(renderer_, settings);
     figures.frame_ms = frame.ms() - loading_ms;
     if (auto done = gl_check("reading the picture"); !done) return done.error();
     if (!ground_seen && ground_must_show(terrain_, view, state)) {

@@ -15,6 +15,7 @@
 #include "viewer/ground/ground_data.hpp"
 #include "viewer/mesher.hpp"
 #include "viewer/ocean/ocean.hpp"
+#include "viewer/overlay_figures.hpp"
 #include "viewer/picture.hpp"
 #include "viewer/renderer.hpp"
 #include "viewer/view_state.hpp"
@@ -43,14 +44,7 @@ struct PictureFigures {
     std::optional<lod::MeasuredError> error;  ///< only where asked for and something is in view
     OceanFigures ocean;                       ///< of all parts that the picture was drawn in
     std::string gl;                           ///< what drew
-    /// What each overlay took besides its part of the ground's program. Those that are off are not there.
-    struct OfOverlay {
-        Overlay overlay;
-        std::uint64_t tiles = 0;  ///< loaded
-        int gl_objects = 0;
-        std::size_t bytes = 0;  ///< of them
-    };
-    std::vector<OfOverlay> overlays;
+    std::vector<OverlayFigures> overlays;
 };
 
 struct FinishedPicture {

@@ -69,7 +69,13 @@ OverlayDrawing::OverlayDrawing(const lod::Terrain& terrain, const GroundData& da
 }
 
 Result<void> OverlayDrawing::provide(const DrawSettings& settings) {
-    for (const auto& [kind, file] : drawn_overlays(settings, data_.drapes.size())) {
+    const auto drawn = drawn_overlays(settings, data_.drapes.size());
+    std::erase_if(drapes_, [&](const auto& drape) {  // what is off keeps no memory
+        return std::none_of(drawn.begin(), drawn.end(), [&](const DrawnOverlay& overlay) {
+            return is_draped(overlay.kind) && overlay.file == drape.first;
+        });
+    });
+    for (const auto& [kind, file] : drawn) {
         if (!is_draped(kind) || file < 0 || drapes_.count(file) != 0) continue;
         auto made = DrapeTextures::create(*terrain_, data_, data_.drapes[static_cast<std::size_t>(file)],
                                           data_.cache_bytes / 2 / data_.drapes.size());

@@ -36,7 +36,7 @@ class OverlayDrawing {
     /// \pre a context is current. The terrain must outlive this.
     OverlayDrawing(const lod::Terrain& terrain, const GroundData& data);
 
-    /// Makes what the settings' files need. Fails where one cannot be read.
+    /// Makes what the settings' files need, and lets go of what others had. Fails where one cannot be read.
     Result<void> provide(const DrawSettings& settings);
 
     /// Sets what a picture needs; what is draped comes in the background.
@@ -73,7 +73,7 @@ class OverlayDrawing {
     HeightCode code_;
     GlBuffer block_;
     GroundData data_;
-    std::map<int, DrapeTextures> drapes_;  // by file; of those that have been drawn
+    std::map<int, DrapeTextures> drapes_;  // by file; of those that are drawn
     std::vector<int> drawn_;               // files of the last picture
     std::optional<double> contour_interval_m_;
     std::optional<Graticule> graticule_;

@@ -189,7 +189,10 @@ void Renderer::upload(const lod::Mesh& mesh) {
 }
 
 Result<void> Renderer::provide_overlays(const DrawSettings& settings) {
-    if (!has_overlays(settings)) return {};
+    if (!has_overlays(settings)) {
+        overlays_.reset();  // what is off keeps no memory
+        return {};
+    }
     if (!overlays_) overlays_.emplace(*terrain_, data_);
     return overlays_->provide(settings);
 }

@@ -97,7 +97,7 @@ class Renderer {
         friend auto operator<=>(const Variant&, const Variant&) = default;
     };
     Variant variant(const DrawSettings& settings) const;
-    /// Makes what overlays need that were not drawn before.
+    /// Makes what overlays need that were not drawn before, and lets go of what others had.
     Result<void> provide_overlays(const DrawSettings& settings);
     /// Sets what all of a part of a picture needs, and has its ground's texels come.
     void prepare(const lod::View& view, const DrawSettings& settings, const PicturePart& part);

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "geo/coordinate_text.hpp"
-#include "lod/measure/area.hpp"
 #include "lod/measure/path.hpp"
+#include "lod/measure/plane.hpp"
 #include "lod/measure/point.hpp"
 #include "lod/measure/results.hpp"
 #include "lod/measure/sight.hpp"
@@ -65,8 +65,13 @@ Result<void> add_outline(lod::HeightSampler& sampler, const Shape& shape, ShapeR
 /// Fills in what is said of a shape; the sampler is at hand, and units are the user's.
 class Report {
   public:
-    Report(lod::HeightSampler& sampler, geo::UnitSystem units, ShapeResult& result)
-        : sampler_(sampler), vertical_(sampler.scene().info().vertical), units_(units), result_(result) {}
+    Report(lod::HeightSampler& sampler, geo::UnitSystem units, const std::function<bool(double)>& progress,
+           ShapeResult& result)
+        : sampler_(sampler),
+          vertical_(sampler.scene().info().vertical),
+          units_(units),
+          progress_(progress),
+          result_(result) {}
 
     Result<void> of(const Shape& shape) {
         const std::vector<geo::LatLon>& places = shape.measurement.vertices;
@@ -82,9 +87,11 @@ class Report {
             case Tool::path:
                 return path(places);
             case Tool::area:
-                return area(places);
+                return area(places, shape.choices.plane);
             case Tool::sight:
-                return sight(places[0], places[1]);
+                return sight(places[0], places[1], shape.choices.looking);
+            case Tool::viewshed:
+                return viewshed(places.front(), shape.choices);
         }
         return {};
     }
@@ -157,8 +164,8 @@ class Report {
         say_datum();
     }
 
-    Result<void> area(const std::vector<geo::LatLon>& places) {
-        const auto measured = lod::measure_area(sampler_.scene(), places);
+    Result<void> area(const std::vector<geo::LatLon>& places, const lod::Plane& plane) {
+        const auto measured = lod::measure_area(sampler_, places, plane, progress_);
         if (!measured) return measured.error();
         result_.json = lod::results_of(*measured, sampler_.scene().info());
         const auto text = [&](double m2) { return geo::area_text(m2, units_); };
@@ -172,22 +179,20 @@ class Report {
         if (measured->mean_slope_deg && measured->steepest_deg)
             say("slope mean {:.1f}\u00b0, steepest {:.1f}\u00b0", *measured->mean_slope_deg,
                 measured->steepest_deg->value);
-        if (measured->plane_H_m && measured->volume_above_m3)
-            say("volume above H {}: {}", height(*measured->plane_H_m),
-                geo::volume_text(*measured->volume_above_m3, units_));
+        if (measured->plane_H_m && measured->volume_above_m3 && measured->volume_below_m3)
+            say("volume above H {}: {}, below it: {}", height(*measured->plane_H_m),
+                geo::volume_text(*measured->volume_above_m3, units_),
+                geo::volume_text(*measured->volume_below_m3, units_));
         if (measured->void_m2 > 0) say("voids {}: not in it", text(measured->void_m2));
         if (measured->outside_m2 > 0) say("outside the data {}: not in it", text(measured->outside_m2));
         say_datum();
         return {};
     }
 
-    Result<void> sight(geo::LatLon eye, geo::LatLon target) {
-        const lod::Looking looking;
+    Result<void> sight(geo::LatLon eye, geo::LatLon target, const lod::Looking& looking) {
         const auto measured = lod::measure_sight(sampler_, eye, target, looking);
         if (!measured) return measured.error();
         result_.json = lod::results_of(*measured, looking);
-        say("from {:.1f} m above the ground to the ground, refraction {:.2f}", looking.eye_height_m,
-            looking.refraction);
         result_.label = !measured->visible ? "unknown" : *measured->visible ? "visible" : "hidden";
         say("{}, {} away", result_.label, length(measured->geodesic.length_m));
         if (measured->first_blocked)
@@ -205,19 +210,49 @@ class Report {
         return {};
     }
 
+    Result<void> viewshed(geo::LatLon eye, const MeasureChoices& choices) {
+        const lod::ViewshedRequest request{choices.looking, choices.radius_m, progress_};
+        auto measured = lod::measure_viewshed(sampler_, eye, request);
+        if (!measured) return measured.error();
+        result_.json = lod::results_of(*measured, request);
+        const auto text = [&](double m2) { return geo::area_text(m2, units_); };
+        say("eye at H {}", height(measured->eye_H_m));
+        say("visible {}, {} posts", text(measured->visible_m2), measured->visible_posts);
+        say("hidden {}, {} posts", text(measured->hidden_m2), measured->hidden_posts);
+        if (measured->unknown_posts > 0)
+            say("unknown {}, {} posts: over voids or outside", text(measured->unknown_m2),
+                measured->unknown_posts);
+        say_datum();
+        result_.label = "visible " + text(measured->visible_m2);
+        result_.viewshed = std::make_shared<const lod::Viewshed>(*std::move(measured));
+        return {};
+    }
+
     lod::HeightSampler& sampler_;
     const lod::VerticalReference& vertical_;
     geo::UnitSystem units_;
+    const std::function<bool(double)>& progress_;
     ShapeResult& result_;
 };
 
 }  // namespace
 
-ShapeResult measure_shape(lod::HeightSampler& sampler, const Shape& shape, geo::UnitSystem units) {
+ShapeResult measure_shape(lod::HeightSampler& sampler, const Shape& shape, geo::UnitSystem units,
+                          const std::function<bool(double)>& progress) {
     ShapeResult result;
+    std::atomic<bool> stopped = false;
+    const std::function<bool(double)> go_on = [&](double done) {
+        if (progress && !progress(done)) stopped = true;
+        return !stopped;
+    };
     auto done = add_outline(sampler, shape, result);
-    if (done) done = Report(sampler, units, result).of(shape);
-    if (!done) result.lines.push_back(done.error().message);
+    if (done && go_on(0)) done = Report(sampler, units, go_on, result).of(shape);
+    if (stopped) {
+        result = ShapeResult();
+        result.stopped = true;
+    } else if (!done) {
+        result.lines.push_back(done.error().message);
+    }
     return result;
 }
 

@@ -79,7 +79,9 @@ struct Window::State {
             if (press == &right) gathered.right_pressed_at = gathered.cursor;
             if (press == &middle) gathered.middle_pressed_at = gathered.cursor;
         } else {
-            if (press == &left && press->down && !press->dragging) click(press->at);
+            const bool clicked = press->down && !press->dragging;
+            if (clicked && press == &left) click(press->at);
+            if (clicked && press == &right) gathered.right_clicks.push_back(press->at);
             press->down = false;
         }
     }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "app/measure/measure.hpp"
+#include "lod/measure/plane.hpp"
 #include "lod/measure/results.hpp"
 
 namespace relevo::app {
@@ -38,11 +39,13 @@ void print_text(const lod::AreaMeasurement& area, const lod::SceneInfo& info, ge
 
 Result<nlohmann::json> measure_area(const MeasureFlags& flags, lod::HeightSampler& sampler,
                                     const Places& polygon) {
-    const auto area = lod::measure_area(
-        sampler.scene(), polygon, {flags.plane_m, [bar = progress_bar(flags.common, "area")](double done) {
-                                       bar(done);
-                                       return true;
-                                   }});
+    const auto plane = lod::parse_plane(flags.plane);
+    if (!plane) return plane.error();
+    const auto area =
+        lod::measure_area(sampler, polygon, *plane, [bar = progress_bar(flags.common, "area")](double done) {
+            bar(done);
+            return true;
+        });
     if (!area) return area.error();
     if (!flags.common.json) print_text(*area, sampler.scene().info(), flags.unit_system());
     return lod::results_of(*area, sampler.scene().info());

@@ -9,6 +9,7 @@
 
 #include "app/measure/measure.hpp"
 #include "geo/coordinate_text.hpp"
+#include "lod/measure/plane.hpp"
 #include "lod/scene/scene.hpp"
 
 namespace relevo::app {
@@ -112,6 +113,8 @@ Result<void> check_flags(const MeasureFlags& flags) {
         return Error{ErrorKind::usage, "measure viewshed needs --radius METRES"};
     if (flags.what == "viewshed" && !flags.from.empty())
         return Error{ErrorKind::usage, "measure viewshed takes one place from the command, not --from"};
+    if (const auto plane = lod::parse_plane(flags.plane); !plane)
+        return Error{ErrorKind::usage, "--plane: " + plane.error().message};
     if (!flags.save.empty() && !output::is_measurement_file(flags.save))
         return Error{
             ErrorKind::usage,
@@ -179,8 +182,13 @@ void add_measure(CLI::App& program, Action& action) {
     command->add_option("--format", flags->format, "Of a profile's text: a summary, or its samples as CSV")
         ->check(CLI::IsMember({"text", "csv"}))
         ->capture_default_str();
-    command->add_option("--plane", flags->plane_m, "area: volumes above and below this H; else its lowest")
-        ->type_name("METRES");
+    command
+        ->add_option(
+            "--plane", flags->plane,
+            "area: what volumes are above and below: its lowest H, the lowest on its border, its mean "
+            "H, or a given one")
+        ->type_name("lowest|border|mean|METRES")
+        ->capture_default_str();
     command->add_option("--eye-height", flags->looking.eye_height_m, "sight, viewshed: above the ground")
         ->type_name("METRES")
         ->capture_default_str();

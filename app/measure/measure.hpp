@@ -24,8 +24,8 @@ struct MeasureFlags {
     std::string save;  ///< a file for places and results
     std::string name;  ///< of what is saved
     std::string units = "metric";
-    std::string format = "text";  ///< of a profile: text or csv
-    std::optional<double> plane_m;
+    std::string format = "text";   ///< of a profile: text or csv
+    std::string plane = "lowest";  ///< of an area's volumes
     lod::Looking looking;
     double radius_m = 0;
     std::string output;

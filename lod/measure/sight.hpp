@@ -12,6 +12,7 @@ struct Looking {
     double eye_height_m = 1.7;
     double target_height_m = 0;
     double refraction = 0.13;  ///< k; 0: no air
+    friend bool operator==(const Looking&, const Looking&) = default;
 };
 
 /// Is a target seen from an eye over the bilinear surface of the full data?

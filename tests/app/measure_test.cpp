@@ -166,6 +166,13 @@ TEST_F(Measure, EveryKindOfMeasurementIsOneJsonObject) {
     const auto area =
         measure(scene(), "area " + at(3, 12) + " " + at(30, 14) + " " + at(12, 25) + " --plane 5");
     EXPECT_EQ(area["plane_H_m"], 5);
+    const auto level =
+        measure(scene(), "area " + at(3, 12) + " " + at(30, 14) + " " + at(12, 25) + " --plane mean");
+    EXPECT_EQ(level["plane_H_m"], level["mean_H_m"]);
+    EXPECT_EQ(relevo("measure '" + scene().string() + "' area " + at(3, 12) + " " + at(30, 14) + " " +
+                     at(12, 25) + " --plane least")
+                  .status,
+              2);
     EXPECT_NEAR(area["measured_area_m2"].get<double>() / area["geodesic_area_m2"].get<double>(), 1, 1e-6);
     const auto sight = measure(scene(), "sight " + at(3, 12) + " " + at(30, 14) + " --eye-height 5000");
     EXPECT_EQ(sight["visible"], true);

@@ -27,14 +27,14 @@ struct SyntheticRaster {
     std::function<double(int column, int row)> value = [](int column, int row) {
         return 100.0 + 3 * column - 2 * row;
     };
-    std::optional<double> nodata;
-    std::string unit;
-    std::optional<double> scale;
-    std::optional<double> offset;
+    std::optional<double> nodata = {};
+    std::string unit = {};
+    std::optional<double> scale = {};
+    std::optional<double> offset = {};
     std::string area_or_point = "Area";
     std::string driver = "GTiff";
-    std::vector<std::string> creation_options;
-    std::vector<GDALColorInterp> interpretations;
+    std::vector<std::string> creation_options = {};
+    std::vector<GDALColorInterp> interpretations = {};
 
     /// Writes the file with GDAL.
     std::filesystem::path write(const std::filesystem::path& file) const;

@@ -75,6 +75,9 @@ class Desktop {
         return program_;
     }
 
+    /// As programs are told of it: ":7".
+    std::string display() const { return ":" + number_; }
+
     int xdotool(const std::string& what) const {
         return std::system(
             fmt::format("DISPLAY=:{} timeout 30 xdotool {} >/dev/null 2>&1", number_, what).c_str());

@@ -111,6 +111,62 @@ TEST(MeasureTool, DeletingTheLastVertexOfALineOpensItAgain) {
     tool.clear();
 }
 
+TEST(MeasureTool, AnyVertexIsDeleted) {
+    MeasureTool tool;
+    tool.take(Tool::area);
+    for (int i = 0; i < 4; ++i) tool.add(at(i, i * i));
+    tool.finish();
+    tool.delete_vertex({0, 1});
+    ASSERT_EQ(tool.shapes()[0].measurement.vertices.size(), 3u);
+    EXPECT_EQ(tool.shapes()[0].measurement.vertices[1].lat.value, 2);
+    EXPECT_FALSE(tool.shapes()[0].open) << "it is an area still";
+    tool.take(Tool::point);
+    tool.delete_vertex({0, 0});
+    EXPECT_TRUE(tool.shapes()[0].open) << "two corners are none";
+    EXPECT_EQ(tool.tool(), Tool::area) << "the next click adds the third";
+    EXPECT_TRUE(tool.undo());
+    EXPECT_EQ(tool.shapes()[0].measurement.vertices.size(), 3u);
+    EXPECT_TRUE(tool.undo());
+    EXPECT_EQ(tool.shapes()[0].measurement.vertices.size(), 4u);
+}
+
+TEST(MeasureTool, AVertexIsPutIntoASideAndMovedInOneStep) {
+    MeasureTool tool;
+    tool.take(Tool::path);
+    tool.add(at(1, 1));
+    tool.add(at(3, 3));
+    tool.begin_insert({0, 1}, at(2, 2));
+    tool.move({0, 1}, at(2, 5));
+    ASSERT_EQ(tool.shapes()[0].measurement.vertices.size(), 3u);
+    EXPECT_EQ(tool.shapes()[0].measurement.vertices[1].lon.value, 5);
+    EXPECT_TRUE(tool.undo());
+    EXPECT_EQ(tool.shapes()[0].measurement.vertices.size(), 2u);
+    // Between the last and the first of an area.
+    tool.take(Tool::area);
+    for (int i = 0; i < 3; ++i) tool.add(at(i, i * i));
+    tool.begin_insert({1, 3}, at(7, 7));
+    EXPECT_EQ(tool.shapes()[1].measurement.vertices.back().lat.value, 7);
+}
+
+TEST(MeasureTool, ChoicesAreUndoneAndServeTheNextOfTheirKind) {
+    MeasureTool tool;
+    tool.take(Tool::viewshed);
+    tool.add(at(1, 1));
+    EXPECT_FALSE(tool.shapes()[0].open);
+    EXPECT_EQ(tool.shapes()[0].measurement.kind, lod::MeasurementKind::point);
+    MeasureChoices choices = tool.shapes()[0].choices;
+    choices.radius_m = 123;
+    const auto version = tool.version();
+    tool.choose(0, choices);
+    EXPECT_GT(tool.version(), version);
+    tool.add(at(2, 2));
+    ASSERT_EQ(tool.shapes().size(), 2u);
+    EXPECT_EQ(tool.shapes()[1].choices.radius_m, 123);
+    tool.undo();
+    tool.undo();
+    EXPECT_EQ(tool.shapes()[0].choices.radius_m, 5000);
+}
+
 TEST(MeasureTool, WhatWasLoadedIsMeasuredAsWhatItIs) {
     MeasureTool tool;
     tool.insert_shapes({{"a", lod::MeasurementKind::point, {at(1, 1)}},

@@ -21,6 +21,11 @@ class Drape {
   public:
     virtual ~Drape() = default;
 
+    /// For people: the file's.
+    virtual std::string name() const { return {}; }
+    /// Else it comes from what is measured.
+    virtual bool is_of_file() const { return true; }
+
     /// 0 where it is no finer than the terrain's posts; at most kMostFiner.
     virtual int finer() const = 0;
     static constexpr int kMostFiner = 7;

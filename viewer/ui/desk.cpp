@@ -1,5 +1,6 @@
 #include "viewer/ui/desk.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,6 +13,10 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::chrono::seconds kMessageTime{6};
+
+bool may_be_elevation(const std::vector<FileUse>& uses) {
+    return std::find(uses.begin(), uses.end(), FileUse::elevation) != uses.end();
+}
 
 }  // namespace
 
@@ -61,6 +66,9 @@ void Desk::open(const fs::path& path) {
         tell(fmt::format("{}: there is no such file", path.string()));
     } else if (import_) {
         tell(fmt::format("{} is being imported; one at a time", import_->file().filename().string()));
+    } else if (options_.uses_of && !may_be_elevation(options_.uses_of(whole))) {
+        tell(fmt::format("{} has no heights: open a scene first, and then put it over that",
+                         path.filename().string()));
     } else {
         import_ = std::make_unique<BackgroundImport>(whole, options_.make_scene);
     }

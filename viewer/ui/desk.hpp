@@ -9,6 +9,7 @@
 
 #include "geo/result.hpp"
 #include "viewer/background_import.hpp"
+#include "viewer/layer_files.hpp"
 #include "viewer/ui/settings.hpp"
 #include "viewer/ui/ui.hpp"
 #include "viewer/window.hpp"
@@ -21,6 +22,7 @@ struct DeskOptions {
     double ui_scale = 0;                  ///< of letters and marks; 0: the settings', or what the screen says
     std::filesystem::path settings = {};  ///< where they are kept; empty: nowhere
     SceneMaker make_scene;
+    decltype(LayerFiles::uses_of) uses_of = {};  ///< what files may be; empty: all are elevation
 };
 
 /// The window, its user interface and settings, and what goes on from one scene to the next: the import of an

@@ -16,16 +16,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Endings of the elevation files that people have; others can be typed.
-constexpr std::array<const char*, 16> kElevationEndings{".tif", ".tiff", ".hgt", ".asc", ".vrt", ".img",
-                                                        ".dem", ".dt0",  ".dt1", ".dt2", ".nc",  ".flt",
-                                                        ".bil", ".zip",  ".jp2", ".adf"};
+/// Endings of the files that people have; others can be typed.
+constexpr std::array<const char*, 32> kEndings{
+    ".tif",  ".tiff", ".hgt", ".asc", ".vrt",      ".img", ".dem", ".dt0", ".dt1", ".dt2",  ".nc",
+    ".flt",  ".bil",  ".zip", ".jp2", ".adf",      ".png", ".jpg", ".gpx", ".shp", ".gpkg", ".geojson",
+    ".json", ".kml",  ".kmz", ".fgb", ".topojson", ".gml", ".csv", ".dxf", ".tab", ".mif"};
 
-bool looks_like_elevation(const fs::path& file) {
+bool looks_openable(const fs::path& file) {
     std::string ending = file.extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return std::find(kElevationEndings.begin(), kElevationEndings.end(), ending) != kElevationEndings.end();
+    return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
 }
 
 }  // namespace
@@ -40,7 +41,7 @@ std::vector<ChooserEntry> openable_in(const fs::path& folder) {
         if (at->is_directory(hidden)) {
             const bool is_scene = fs::is_regular_file(at->path() / "scene.json", hidden);
             entries.push_back({is_scene ? ChooserEntry::Kind::scene : ChooserEntry::Kind::folder, name});
-        } else if (looks_like_elevation(at->path())) {
+        } else if (looks_openable(at->path())) {
             entries.push_back({ChooserEntry::Kind::file, name});
         }
     }
@@ -59,6 +60,7 @@ void FileChooser::show() {
     std::error_code failed;
     if (folder_.empty()) folder_ = fs::current_path(failed);
     enter(folder_);
+    typed_.clear();
     shown_ = fresh_ = true;
 }
 
@@ -69,7 +71,7 @@ std::optional<fs::path> FileChooser::draw(const Ui& ui) {
     const float letter = ImGui::GetFontSize();
     ImGui::SetNextWindowPos({0.5f * size.x, 0.5f * size.y}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowSize({std::min(40 * letter, 0.9f * size.x), std::min(30 * letter, 0.8f * size.y)});
-    ImGui::Begin("Open a scene or an elevation file", &shown_,
+    ImGui::Begin("Open a scene, heights, a picture or lines", &shown_,
                  ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoResize |
                      ImGuiWindowFlags_NoMove);
     ImGui::TextUnformatted(folder_.string().c_str());
@@ -87,7 +89,7 @@ std::optional<fs::path> FileChooser::draw(const Ui& ui) {
     for (const ChooserEntry& entry : entries_) {
         const char* mark = entry.kind == ChooserEntry::Kind::folder  ? "/"
                            : entry.kind == ChooserEntry::Kind::scene ? "   scene"
-                                                                     : "   import";
+                                                                     : "";
         if (!ImGui::Selectable((entry.name + mark).c_str())) continue;
         if (entry.kind == ChooserEntry::Kind::folder) {
             into = folder_ / entry.name;

@@ -9,7 +9,7 @@
 
 namespace relevo::viewer {
 
-/// What a folder has that can be opened: folders, scenes and elevation files, by name.
+/// What a folder has that can be opened: folders, scenes and files that may be, by name.
 struct ChooserEntry {
     enum class Kind { folder, scene, file };
     Kind kind = Kind::folder;
@@ -17,7 +17,7 @@ struct ChooserEntry {
 };
 std::vector<ChooserEntry> openable_in(const std::filesystem::path& folder);
 
-/// A box with a folder's scenes and elevation files, and a line to type a path in.
+/// A box with a folder's scenes and files, and a line to type a path in.
 class FileChooser {
   public:
     void show();

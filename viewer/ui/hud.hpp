@@ -12,6 +12,7 @@
 #include "viewer/flight_keys.hpp"
 #include "viewer/legend.hpp"
 #include "viewer/map_labels.hpp"
+#include "viewer/ui/free_area.hpp"
 #include "viewer/view_state.hpp"
 
 namespace relevo::viewer {
@@ -45,6 +46,7 @@ struct HudContent {
     bool cursor_is_preview = false;  ///< of the place: finer ground is being read
     bool keys_shown = false;
     float panel_width = 0;           ///< what the side panel covers, in the user interface's units
+    Covered covered;                 ///< by panels, in the last frame
     std::vector<ToolButton> tools;   ///< of the tool bar
     std::vector<std::string> facts;  ///< of the scene
     std::vector<MapLabel> labels;    ///< of contours and the graticule
@@ -66,9 +68,9 @@ struct DrawnShape {
     bool current = false;
 };
 
-/// Panels of text: the view, the place under the cursor, the keys, and what the picture is not. \pre between
-/// Ui::begin and end
-void draw_panels(const HudContent& content);
+/// Panels of text: the view, the place under the cursor, the keys, and what the picture is not. Gives what
+/// they cover. \pre between Ui::begin and end
+Covered draw_panels(const HudContent& content);
 
 /// Drawn over the ground: compass, scale bar, measured shapes, a ring around a place of interest. \pre
 /// between Ui::begin and end

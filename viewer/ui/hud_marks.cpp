@@ -45,8 +45,9 @@ void turned_text(ImDrawList& list, ImVec2 middle, double degrees, const std::str
 }
 
 /// Upright ones are moved into the picture, as letters may be larger than who placed them knows; of two that
-/// touch the first stays.
-void map_labels(ImDrawList& list, const std::vector<MapLabel>& labels, float ui_per_px) {
+/// touch the first stays, and those that panels would cover are left out.
+void map_labels(ImDrawList& list, const std::vector<MapLabel>& labels, float ui_per_px,
+                const Covered& covered) {
     const ImVec2 picture = ImGui::GetIO().DisplaySize;
     const float margin = 0.4f * ImGui::GetFontSize();
     std::vector<std::pair<ImVec2, float>> drawn;  // their middles and half their widths
@@ -60,21 +61,27 @@ void map_labels(ImDrawList& list, const std::vector<MapLabel>& labels, float ui_
             return std::abs(other.first.x - at.x) < other.second + reach &&
                    std::abs(other.first.y - at.y) < 1.3f * size.y;
         });
-        if (touches) continue;
+        const float rise = std::abs(std::sin(static_cast<float>(map_label.angle) * 0.0174533f));
+        const float height = 0.5f * size.y + rise * reach;
+        if (touches || covered.touches({at.x - reach, at.y - height, at.x + reach, at.y + height})) continue;
         drawn.emplace_back(at, reach);
         turned_text(list, at, map_label.angle, map_label.text);
     }
 }
 
-/// The layer's colours with their values, in the lower left corner.
-void legend_bar(ImDrawList& list, const Legend& legend) {
+/// The layer's colours with their values, in the lower left corner: as high as panels leave room for, which
+/// it then covers itself.
+void legend_bar(ImDrawList& list, const Legend& legend, Covered& covered) {
     const float letter = ImGui::GetFontSize();
-    const float height = 11 * letter;
     const float width = 0.9f * letter;
     const float left = 0.8f * letter;
     const float bottom = ImGui::GetIO().DisplaySize.y - 4 * letter;
-    list.AddRectFilled({left - 0.3f * letter, bottom - height - 1.8f * letter},
-                       {left + 6.2f * letter, bottom + 0.6f * letter}, IM_COL32(13, 15, 20, 215), 4);
+    Box plate{left - 0.3f * letter, bottom - 12.8f * letter, left + 6.2f * letter, bottom + 0.6f * letter};
+    plate.top = plate.bottom - covered.height_free(plate);
+    const float height = bottom - plate.top - 1.8f * letter;
+    if (height < 4 * letter) return;  // its numbers would touch
+    covered.add(plate);
+    list.AddRectFilled({plate.left, plate.top}, {plate.right, plate.bottom}, IM_COL32(13, 15, 20, 215), 4);
     const std::size_t steps = legend.colours.size();
     for (std::size_t i = 0; i < steps; ++i) {
         const auto& c = legend.colours[i];
@@ -201,8 +208,9 @@ void draw_marks(const HudContent& content, const std::vector<DrawnShape>& shapes
         }
     }
     compass(list, content.view.heading, content.panel_width);
-    map_labels(list, content.labels, ui_per_px);
-    if (content.legend) legend_bar(list, *content.legend);
+    Covered covered = content.covered;
+    if (content.legend) legend_bar(list, *content.legend, covered);
+    map_labels(list, content.labels, ui_per_px, covered);
     if (content.middle_distance_m)
         scale_bar(list, *content.middle_distance_m, view, ui_per_px, content.panel_width);
 }

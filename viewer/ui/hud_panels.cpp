@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -9,7 +11,7 @@ namespace relevo::viewer {
 
 namespace {
 
-enum class Corner { upper_left, top, bottom, middle };
+enum class Corner { upper_left, bottom, middle };
 
 /// A panel of lines that is as large as its text, and takes neither clicks nor keys.
 class Panel {
@@ -23,9 +25,6 @@ class Panel {
         switch (corner) {
             case Corner::upper_left:
                 break;
-            case Corner::top:
-                at.x = 0.5f * size.x, pivot.x = 0.5f;
-                break;
             case Corner::bottom:
                 at = {0.5f * size.x, size.y - margin}, pivot = {0.5f, 1};
                 break;
@@ -33,17 +32,30 @@ class Panel {
                 at = {0.5f * size.x, 0.5f * size.y}, pivot = {0.5f, 0.5f};
                 break;
         }
+        begin(name, at, pivot);
+    }
+    Panel(const char* name, ImVec2 upper_left) { begin(name, upper_left, {0, 0}); }
+    Panel(const Panel&) = delete;
+    Panel& operator=(const Panel&) = delete;
+    ~Panel() { ImGui::End(); }
+
+    void line(const std::string& text) { ImGui::TextUnformatted(text.data(), text.data() + text.size()); }
+
+    /// What it covers: as large as it was in the last frame.
+    Box box() const {
+        const ImVec2 at = ImGui::GetWindowPos();
+        const ImVec2 size = ImGui::GetWindowSize();
+        return {at.x, at.y, at.x + size.x, at.y + size.y};
+    }
+
+  private:
+    void begin(const char* name, ImVec2 at, ImVec2 pivot) {
         ImGui::SetNextWindowPos(at, ImGuiCond_Always, pivot);
         ImGui::Begin(name, nullptr,
                      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
                          ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoSavedSettings |
                          ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
     }
-    Panel(const Panel&) = delete;
-    Panel& operator=(const Panel&) = delete;
-    ~Panel() { ImGui::End(); }
-
-    void line(const std::string& text) { ImGui::TextUnformatted(text.data(), text.data() + text.size()); }
 };
 
 std::string eye_text(geo::OrthometricHeight H, const lod::VerticalReference& vertical) {
@@ -57,7 +69,7 @@ std::string tau_text(const HudContent& content) {
                        content.tau_limit);
 }
 
-void view_panel(const HudContent& content) {
+Box view_panel(const HudContent& content) {
     const ViewState& view = content.view;
     Panel panel("view", Corner::upper_left);
     panel.line(place_text(view.place));
@@ -78,22 +90,25 @@ void view_panel(const HudContent& content) {
     if (content.pending > 0) panel.line(fmt::format("loading {}", content.pending));
     if (view.exaggeration != 1) panel.line(fmt::format("heights x {:.3g}", view.exaggeration));
     if (view.layer != Layer::hypsometric) panel.line(std::string(to_string(view.layer)));
+    return panel.box();
 }
 
-void cursor_panel(const HudContent& content) {
+Box cursor_panel(const HudContent& content) {
     Panel panel("cursor", Corner::bottom);
     if (!content.message.empty()) panel.line(content.message);
     if (!content.cursor) {
         panel.line("no ground under the cursor        F1: keys");
-        return;
+        return panel.box();
     }
     panel.line(fmt::format("{}   {}{}", place_text(content.cursor->place),
                            heights_text(*content.cursor, *content.vertical),
                            content.cursor_is_preview ? "   (preview: finer ground is coming)" : ""));
+    return panel.box();
 }
 
-/// Says that the picture is not what was asked for, and why. Nothing where it is.
-void banner(const HudContent& content) {
+/// Says that the picture is not what was asked for, and why. Nothing where it is. Beside the view's panel and
+/// short of the side panel and the compass where there is room for that, else below the view's panel.
+std::optional<Box> banner(const HudContent& content, const Box& view) {
     std::string what;
     if (content.tau_reached_px)
         what = fmt::format("coarser than asked: {:.2f} px, not {:.3g}, by {}", *content.tau_reached_px,
@@ -101,9 +116,15 @@ void banner(const HudContent& content) {
     if (content.pending > 0)
         what += fmt::format("{}{} pieces of the ground are coming", what.empty() ? "not yet whole: " : "; ",
                             content.pending);
-    if (what.empty()) return;
-    Panel panel("banner", Corner::top);
+    if (what.empty()) return std::nullopt;
+    const float letter = ImGui::GetFontSize();
+    const float width = ImGui::CalcTextSize(what.c_str()).x + 2 * ImGui::GetStyle().WindowPadding.x;
+    const float right = ImGui::GetIO().DisplaySize.x - content.panel_width - 6.5f * letter;
+    const float beside = std::max(view.right + 0.5f * letter, 0.5f * (right - width));
+    const bool fits = beside + width < right;
+    Panel panel("banner", fits ? ImVec2(beside, view.top) : ImVec2(view.left, view.bottom + 0.5f * letter));
     panel.line(what);
+    return panel.box();
 }
 
 void keys_panel() {
@@ -140,11 +161,14 @@ std::string heights_text(const lod::PointMeasurement& point, const lod::Vertical
     return fmt::format("H {:.2f} m {}{}   {}", point.H->m, vertical.name, assumed, h);
 }
 
-void draw_panels(const HudContent& content) {
-    view_panel(content);
-    cursor_panel(content);
-    banner(content);
+Covered draw_panels(const HudContent& content) {
+    Covered covered;
+    const Box view = view_panel(content);
+    covered.add(view);
+    covered.add(cursor_panel(content));
+    if (const auto box = banner(content, view)) covered.add(*box);
     if (content.keys_shown) keys_panel();
+    return covered;
 }
 
 }  // namespace relevo::viewer

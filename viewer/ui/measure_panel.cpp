@@ -73,14 +73,66 @@ std::optional<double> draw_profile(const std::vector<lod::ProfileSample>& sample
     return under_cursor;
 }
 
+/// What a shape depends on besides its places, where it has become something else.
+std::optional<MeasureChoices> draw_choices(const Ui& ui, NumberBox& numbers, const Shape& shape,
+                                           const ShapeResult* result) {
+    MeasureChoices choices = shape.choices;
+    bool changed = false;
+    if (shape.tool == Tool::area) {
+        using Kind = lod::Plane::Kind;
+        ImGui::TextDisabled("volume above and below its");
+        for (const Kind kind : {Kind::lowest, Kind::border, Kind::mean}) {
+            if (ImGui::RadioButton(lod::to_string(lod::Plane{kind, 0}).c_str(), choices.plane.kind == kind)) {
+                choices.plane.kind = kind;
+                changed = true;
+            }
+            ImGui::SameLine();
+        }
+        ImGui::NewLine();
+        if (ImGui::RadioButton("at", choices.plane.kind == Kind::given)) {
+            choices.plane.kind = Kind::given;
+            if (result != nullptr) choices.plane.H_m = result->json.value("plane_H_m", choices.plane.H_m);
+            changed = true;
+        }
+        ImGui::SameLine();
+        if (numbers.draw(ui, "m H", choices.plane.H_m, -1e5, 1e5)) {
+            choices.plane.kind = Kind::given;
+            changed = true;
+        }
+    }
+    if (shape.tool == Tool::sight || shape.tool == Tool::viewshed) {
+        lod::Looking& looking = choices.looking;
+        changed |= numbers.draw(ui, "m, eye's height", looking.eye_height_m, 0, 1e5);
+        changed |= numbers.draw(ui, "m, target's height", looking.target_height_m, 0, 1e5);
+        changed |= numbers.draw(ui, "refraction", looking.refraction, -1, 0.99);
+    }
+    if (shape.tool == Tool::viewshed) changed |= numbers.draw(ui, "m, radius", choices.radius_m, 1, 1e6);
+    if (!changed || choices == shape.choices) return std::nullopt;
+    return choices;
+}
+
+/// How far the measuring of a shape is, with a way to stop it.
+void draw_progress(ShapeResults& results, const Shape& shape) {
+    const auto progress = results.progress(shape);
+    if (!progress) {
+        ImGui::TextDisabled("%s", is_measurable(shape) ? "to be measured" : "click on");
+        return;
+    }
+    const auto done = static_cast<float>(*progress);
+    ImGui::ProgressBar(done, {-5 * ImGui::GetFontSize(), 0}, fmt::format("{:.0f} %", 100 * done).c_str());
+    ImGui::SameLine();
+    if (ImGui::Button("Stop")) results.cancel();
+}
+
 }  // namespace
 
-std::optional<double> draw_measure_panel(Measuring& measuring, const std::optional<double>& marked_m,
-                                         std::vector<Wish>& wishes) {
+std::optional<double> draw_measure_panel(const Ui& ui, Measuring& measuring, NumberBox& numbers,
+                                         const std::optional<double>& marked_m, std::vector<Wish>& wishes) {
     MeasureTool& tool = measuring.tool();
     if (tool.shapes().empty()) {
         ImGui::TextWrapped(
-            "Click on the ground: F2 a point, F3 a line, F4 a path, F5 an area, F6 a line of sight.");
+            "Click on the ground: F2 a point, F3 a line, F4 a path, F5 an area, F6 a line of sight, F7 a "
+            "viewshed.");
         return std::nullopt;
     }
     std::optional<std::size_t> gone;
@@ -107,11 +159,25 @@ std::optional<double> draw_measure_panel(Measuring& measuring, const std::option
     if (!tool.current()) return std::nullopt;
     const Shape& shape = tool.shapes()[*tool.current()];
     const ShapeResult* result = measuring.results().find(shape);
+    if (const auto chosen = draw_choices(ui, numbers, shape, result)) {
+        tool.choose(*tool.current(), *chosen);
+        return std::nullopt;  // from the next frame on it is measured
+    }
     if (result == nullptr) {
-        ImGui::TextDisabled("%s", is_measurable(shape) ? "measuring..." : "click on");
+        draw_progress(measuring.results(), shape);
+        return std::nullopt;
+    }
+    if (result->stopped) {
+        ImGui::TextDisabled("stopped");
+        ImGui::SameLine();
+        if (ImGui::Button("Measure")) measuring.results().forget(shape);
         return std::nullopt;
     }
     for (const std::string& line : result->lines) ImGui::TextWrapped("%s", line.c_str());
+    if (result->viewshed) {
+        ImGui::TextDisabled("green: seen; dark: hidden; yellow: unknown");
+        if (ImGui::Button("Save as GeoTIFF")) wishes.push_back({Command::save_viewshed, {}});
+    }
     if (!result->profile || result->profile->samples.size() < 2) return std::nullopt;
     return draw_profile(result->profile->samples, marked_m);
 }

@@ -1,3 +1,4 @@
+#define GLFW_INCLUDE_NONE  // keys alone
 #include "viewer/ui/panels.hpp"
 
 #include <algorithm>
@@ -5,10 +6,12 @@
 #include <cmath>
 #include <utility>
 
+#include <GLFW/glfw3.h>
 #include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "viewer/ui/layer_panel.hpp"
 #include "viewer/ui/measure_panel.hpp"
 
 namespace relevo::viewer {
@@ -32,53 +35,18 @@ bool tool_button(const char* name, bool on, const char* what) {
     return pressed;
 }
 
-/// The first overlay of a kind, and whether there is one: a box to have it or not.
-Overlay* overlay_box(Overlays& overlays, Overlay::Kind kind, const char* name) {
-    const auto found = std::find_if(overlays.begin(), overlays.end(),
-                                    [&](const Overlay& overlay) { return overlay.kind == kind; });
-    bool on = found != overlays.end();
-    if (ImGui::Checkbox(name, &on)) {
-        if (!on) overlays.erase(found);
-        if (on && overlays.size() < kMostOverlays) overlays.push_back({.kind = kind});
-        return nullptr;
+const char* use_name(FileUse use) {
+    switch (use) {
+        case FileUse::elevation:
+            return "heights, for a scene of its own";
+        case FileUse::imagery:
+            return "a picture over the ground";
+        case FileUse::vectors:
+            return "lines and points over the ground";
+        case FileUse::measurements:
+            break;
     }
-    return on ? &*found : nullptr;
-}
-
-void opacity(Overlay& overlay) {
-    auto value = static_cast<float>(overlay.opacity);
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(-1);
-    if (ImGui::SliderFloat("##opacity", &value, 0, 1, "opacity %.2f"))
-        overlay.opacity = static_cast<double>(value);
-}
-
-void overlay_choices(ViewState& view) {
-    ImGui::Separator();
-    ImGui::PushID("contours");
-    if (Overlay* contours = overlay_box(view.overlays, Overlay::Kind::contours, "contours")) {
-        opacity(*contours);
-        auto interval = static_cast<float>(contours->interval_m);
-        if (ImGui::InputFloat("m apart", &interval, 0, 0, interval == 0 ? "auto" : "%.6g"))
-            contours->interval_m = std::clamp(static_cast<double>(interval), 0.0, 10000.0);
-        hint("0: what suits the view");
-    }
-    ImGui::PopID();
-    ImGui::PushID("graticule");
-    if (Overlay* graticule = overlay_box(view.overlays, Overlay::Kind::graticule, "graticule")) {
-        opacity(*graticule);
-        ImGui::Checkbox("UTM", &graticule->utm);
-    }
-    ImGui::PopID();
-    for (std::size_t i = 0; i < view.overlays.size(); ++i) {
-        Overlay& overlay = view.overlays[i];
-        const bool imagery = overlay.kind == Overlay::Kind::imagery;
-        if (!imagery && overlay.kind != Overlay::Kind::vectors) continue;
-        ImGui::PushID(static_cast<int>(i));
-        ImGui::Text("%s %d", imagery ? "imagery" : "vectors", overlay.file + 1);
-        opacity(overlay);
-        ImGui::PopID();
-    }
+    return "measurements, to be measured here";
 }
 
 void drawing(ViewState& view) {
@@ -125,7 +93,8 @@ void Panels::sun(const Ui& ui, ViewState& view) {
 }
 
 bool Panels::close() {
-    const bool was_open = go_to_shown_ || chooser_.shown() || keys_shown;
+    const bool was_open = go_to_shown_ || chooser_.shown() || keys_shown || !asked_file_.empty();
+    asked_file_.clear();
     go_to_shown_ = keys_shown = false;
     chooser_.hide();
     return was_open;
@@ -136,6 +105,20 @@ float Panels::panel_width(const Desk& desk) const {
     return std::min(20 * ImGui::GetFontSize(), 0.45f * ImGui::GetIO().DisplaySize.x);
 }
 
+Box Panels::side_box(const Desk& desk) const {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    const float letter = ImGui::GetFontSize();
+    // The line at the bottom is left free.
+    return {size.x - panel_width(desk), ImGui::GetFrameHeightWithSpacing() + letter, size.x,
+            size.y - 4.2f * letter};
+}
+
+void Panels::add_covered(const Desk& desk, Covered& covered) const {
+    covered.add({0, 0, ImGui::GetIO().DisplaySize.x,
+                 ImGui::GetFrameHeightWithSpacing() + 2 * ImGui::GetStyle().WindowPadding.y});
+    if (desk.panel_shown()) covered.add(side_box(desk));
+}
+
 void Panels::toolbar(Desk& desk, const HudContent& content, std::vector<Wish>& wishes) {
     ImGui::SetNextWindowPos({0, 0});
     ImGui::SetNextWindowSize({ImGui::GetIO().DisplaySize.x, 0});
@@ -143,7 +126,7 @@ void Panels::toolbar(Desk& desk, const HudContent& content, std::vector<Wish>& w
     const auto button = [&](const char* name, Command command, const char* what, bool on = false) {
         if (tool_button(name, on, what)) wishes.push_back({command, {}});
     };
-    button("Open", Command::open_file, "A scene or an elevation file (Ctrl O)");
+    button("Open", Command::open_file, "A scene, heights, a picture, lines or measurements (Ctrl O)");
     button("Go to", Command::go_to, "Coordinates in any form, or a view (G)");
     button("Whole", Command::whole_scene, "The whole scene (Home)");
     ImGui::TextDisabled("|");
@@ -193,26 +176,24 @@ void Panels::places(Desk& desk, const std::string& scene, KeyFrames& frames, std
 }
 
 void Panels::side_panel(Desk& desk, ViewState& view, const HudContent& content, const std::string& scene,
-                        KeyFrames& frames, Measuring& measuring, const std::optional<double>& line_m,
-                        std::optional<double>& plot_m, std::vector<Wish>& wishes) {
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const float letter = ImGui::GetFontSize();
-    const float top = ImGui::GetFrameHeightWithSpacing() + letter;
-    const float width = panel_width(desk);
-    ImGui::SetNextWindowPos({size.x - width, top});
-    ImGui::SetNextWindowSize({width, size.y - top - 3 * letter});
+                        KeyFrames& frames, Measuring& measuring, GroundLayers& layers,
+                        const std::optional<double>& line_m, std::optional<double>& plot_m,
+                        std::vector<Wish>& wishes) {
+    const Box box = side_box(desk);
+    ImGui::SetNextWindowPos({box.left, box.top});
+    ImGui::SetNextWindowSize({box.right - box.left, box.bottom - box.top});
     ImGui::Begin("panel", nullptr, kFixed & ~ImGuiWindowFlags_NoScrollbar);
     if (ImGui::BeginTabBar("tabs")) {
         if (ImGui::BeginTabItem("Layers")) {
             drawing(view);
             sun(desk.ui(), view);
-            overlay_choices(view);
+            draw_layer_list(view.overlays, layers, chosen_overlay, wishes);
             ImGui::EndTabItem();
         }
         const bool measured =
             std::exchange(measured_version_, measuring.tool().version()) != measuring.tool().version();
         if (ImGui::BeginTabItem("Measure", nullptr, measured ? ImGuiTabItemFlags_SetSelected : 0)) {
-            plot_m = draw_measure_panel(measuring, line_m, wishes);
+            plot_m = draw_measure_panel(desk.ui(), measuring, numbers_, line_m, wishes);
             ImGui::EndTabItem();
         }
         if (ImGui::BeginTabItem("Places")) {
@@ -244,6 +225,38 @@ void Panels::side_panel(Desk& desk, ViewState& view, const HudContent& content, 
     ImGui::End();
 }
 
+void Panels::ask_use(std::filesystem::path file, std::vector<FileUse> uses) {
+    asked_file_ = std::move(file);
+    asked_uses_ = std::move(uses);
+}
+
+std::optional<Wish> Panels::answer(const Input::Key& key) {
+    if (asked_file_.empty() || key.control) return std::nullopt;
+    const bool enter = key.number == GLFW_KEY_ENTER || key.number == GLFW_KEY_KP_ENTER;
+    const auto which = static_cast<std::size_t>(enter ? 0 : key.number - GLFW_KEY_1);
+    if ((!enter && key.number < GLFW_KEY_1) || which >= asked_uses_.size()) return std::nullopt;
+    const Wish wish{Command::open_as, asked_file_.string(), asked_uses_[which]};
+    asked_file_.clear();
+    return wish;
+}
+
+void Panels::use_question(const Desk& desk, std::vector<Wish>& wishes) {
+    if (asked_file_.empty()) return;
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({0.5f * (size.x - panel_width(desk)), 0.4f * size.y}, ImGuiCond_Always,
+                            {0.5f, 0.5f});
+    ImGui::Begin("question", nullptr, kFixed | ImGuiWindowFlags_AlwaysAutoResize);
+    ImGui::Text("%s may be several things. Open it as", asked_file_.filename().string().c_str());
+    std::optional<FileUse> use;
+    for (std::size_t i = 0; i < asked_uses_.size(); ++i) {
+        if (ImGui::Button(fmt::format("{}  {}", i + 1, use_name(asked_uses_[i])).c_str()))
+            use = asked_uses_[i];
+    }
+    if (use) wishes.push_back({Command::open_as, asked_file_.string(), *use});
+    if (ImGui::Button("Esc  nothing") || use) asked_file_.clear();
+    ImGui::End();
+}
+
 void Panels::go_to(const Ui& ui, std::vector<Wish>& wishes) {
     if (!go_to_shown_) return;
     const ImVec2 size = ImGui::GetIO().DisplaySize;
@@ -272,14 +285,18 @@ void Panels::go_to(const Ui& ui, std::vector<Wish>& wishes) {
 
 std::vector<Wish> Panels::draw(Desk& desk, ViewState& view, const HudContent& content,
                                const std::string& scene, KeyFrames& frames, Measuring& measuring,
-                               const std::optional<double>& line_m, std::optional<double>& plot_m) {
+                               GroundLayers& layers, const std::optional<double>& line_m,
+                               std::optional<double>& plot_m) {
     std::vector<Wish> wishes;
     plot_m.reset();
     toolbar(desk, content, wishes);
-    if (desk.panel_shown()) side_panel(desk, view, content, scene, frames, measuring, line_m, plot_m, wishes);
+    if (desk.panel_shown())
+        side_panel(desk, view, content, scene, frames, measuring, layers, line_m, plot_m, wishes);
     go_to(desk.ui(), wishes);
     desk.draw_import();
-    if (const auto chosen = chooser_.draw(desk.ui())) desk.open(*chosen);
+    use_question(desk, wishes);
+    if (const auto chosen = chooser_.draw(desk.ui()))
+        wishes.push_back({Command::open_path, chosen->string()});
     return wishes;
 }
 
