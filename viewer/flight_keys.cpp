@@ -34,7 +34,7 @@ Command with_control(const Input::Key& key) {
         case GLFW_KEY_Y:
             return Command::redo;
         case GLFW_KEY_S:
-            return Command::save_measurements;
+            return key.shift ? Command::save_viewshed : Command::save_measurements;
         case GLFW_KEY_P:
             return Command::large_screenshot;
         default:
@@ -164,7 +164,7 @@ std::span<const KeyHelp> key_list() {
                                         {"drag a side's middle", "a new point there"},
                                         {"Enter  Esc  Del", "finish, clear, take back a point"},
                                         {"Ctrl Z, Y", "undo, redo"},
-                                        {"Ctrl S", "save what is measured"},
+                                        {"Ctrl S  Ctrl Shift S", "save what is measured, the viewshed"},
                                         {"1 2 3 4 5", "tints, hillshade, slope, levels, terrain"},
                                         {"+ -  X Z", "tau; exaggeration"},
                                         {"L  M", "wireframe by level, morphing"},

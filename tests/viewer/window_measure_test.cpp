@@ -153,6 +153,9 @@ TEST_F(WindowMeasureTest, AViewshedIsThatOfTheCommandLineToTheLastByte) {
     const json command = json::parse(same.out);
     for (const char* key : {"visible_posts", "hidden_posts", "visible_area_m2", "eye_H_m"})
         EXPECT_EQ(seen[key], command[key]) << key;
+    press("ctrl+shift+s");
+    said("viewshed [^\n]+viewshed-0*1.tif");
+    EXPECT_EQ(contents(folder_ / "viewshed-0001.tif"), contents(file));
     close();
 }
 

@@ -176,7 +176,7 @@ std::optional<double> draw_measure_panel(const Ui& ui, Measuring& measuring, Num
     for (const std::string& line : result->lines) ImGui::TextWrapped("%s", line.c_str());
     if (result->viewshed) {
         ImGui::TextDisabled("green: seen; dark: hidden; yellow: unknown");
-        if (ImGui::Button("Save as GeoTIFF")) wishes.push_back({Command::save_viewshed, {}});
+        if (ImGui::Button("Save as GeoTIFF (Ctrl Shift S)")) wishes.push_back({Command::save_viewshed, {}});
     }
     if (!result->profile || result->profile->samples.size() < 2) return std::nullopt;
     return draw_profile(result->profile->samples, marked_m);
