@@ -24,8 +24,8 @@ struct PictureSize {
 
 /// The flags that say what is seen: shared by the commands that draw.
 struct ViewFlags {
-    std::optional<std::string> at, eye, size, method, metric, morph, layer, sun, ocean, wind, waves,
-        ground_map, contours, graticule, ramp;
+    std::optional<std::string> at, eye, size, method, metric, morph, layer, shading, sun, haze, ocean, wind,
+        waves, ground_map, contours, graticule, ramp;
     std::vector<std::string> imagery, vectors;
     std::optional<double> heading, pitch, roll, fov, tau, exaggeration, time;
     bool wireframe = false;

@@ -38,6 +38,24 @@ bool has_ramp(Layer layer) {
     return layer == Layer::hypsometric || layer == Layer::slope || layer == Layer::aspect;
 }
 
+bool is_shaded(Layer layer) {
+    return layer == Layer::hypsometric || layer == Layer::hillshade || layer == Layer::lod;
+}
+
+const char* shading_define(Shading shading) {
+    switch (shading) {
+        case Shading::multidirectional:
+            return "#define FOUR_LIGHTS\n";
+        case Shading::oblique:
+            return "#define FOUR_LIGHTS\n#define OBLIQUE\n";
+        case Shading::combined:
+            return "#define COMBINED\n";
+        case Shading::sun:
+            break;
+    }
+    return "";
+}
+
 bool has_overlays(const DrawSettings& settings) {
     return settings.layer != Layer::plain && !settings.overlays.empty();
 }
@@ -135,6 +153,7 @@ Result<GlName> Renderer::terrain_program(const Variant& variant) {
     std::string defines = fmt::format("#define LAYER {}\n#define TOP_LEVEL {}\n",
                                       static_cast<int>(variant.layer), ground_->top());
     if (variant.wireframe) defines += "#define WIREFRAME\n";
+    defines += shading_define(variant.shading);
     if (variant.sun_fixed) defines += "#define SUN_FIXED\n";
     if (variant.sky) defines += "#define SKY\n";
     if (variant.probe) defines += "#define PROBE\n";
@@ -215,6 +234,7 @@ Result<void> Renderer::complete(const lod::View& view, const DrawSettings& setti
 
 Renderer::Variant Renderer::variant(const DrawSettings& settings) const {
     return {.layer = settings.layer,
+            .shading = is_shaded(settings.layer) ? settings.shading : Shading::sun,
             .wireframe = settings.wireframe && settings.layer != Layer::plain,
             .sun_fixed = settings.sun.kind == SunSetting::Kind::time,
             .sky = !settings.background,
@@ -240,7 +260,7 @@ void Renderer::prepare(const lod::View& view, const DrawSettings& settings, cons
     const bool may_be_below =
         is_below_ground(eye, settings.exaggeration).value_or(eye.h.m < 10e3 * settings.exaggeration);
     const FrameBlock block =
-        frame_block(view, *terrain_, {part.x, part.y, part.width, part.height}, settings.sun,
+        frame_block(view, *terrain_, {part.x, part.y, part.width, part.height}, settings.sun, settings.haze,
                     settings.exaggeration, base_undulation_m_, may_be_below);
     glNamedBufferSubData(frame_.name(), 0, sizeof(block), &block);
     glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, frame_.name());

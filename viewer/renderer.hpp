@@ -92,6 +92,7 @@ class Renderer {
     /// What makes one terrain program differ from another.
     struct Variant {
         Layer layer;
+        Shading shading;
         bool wireframe, sun_fixed, sky, ocean, probe;
         std::vector<DrawnOverlay> overlays;
         friend auto operator<=>(const Variant&, const Variant&) = default;
