@@ -133,6 +133,8 @@ void add_view_flags(CLI::App& command, ViewFlags& flags) {
         "What --layer terrain is made of: a georeferenced raster of four bands of bytes, the weights of "
         "grass, "
         "rock, gravel and snow");
+    add("--marks", flags.marks, "all|none|legend,scale,north,labels",
+        "Drawn over the picture; with view over those of Ctrl P [none]");
     add_picture_flags(command, flags);
 }
 
@@ -232,6 +234,16 @@ Result<PictureSize> read_size(const ViewFlags& flags, PictureSize base) {
             fmt::format("--size {}: expected WIDTHxHEIGHT, each 1 to {}", text, viewer::kLargestPicture));
     }
     return PictureSize{*width, *height};
+}
+
+Result<viewer::Marks> read_marks(const ViewFlags& flags, PictureSize size) {
+    if (!flags.marks) return viewer::Marks{};
+    const auto marks = viewer::parse_marks(*flags.marks);
+    if (!marks) return usage("--marks: " + marks.error().message);
+    if (marks->any() && (size.width < viewer::kLeastMarkedWidth || size.height < viewer::kLeastMarkedHeight))
+        return usage(fmt::format("--marks: a picture with marks has at least {} x {} pixels",
+                                 viewer::kLeastMarkedWidth, viewer::kLeastMarkedHeight));
+    return *marks;
 }
 
 Result<int> read_samples(const ViewFlags& flags, int base) {

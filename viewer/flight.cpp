@@ -19,6 +19,7 @@
 #include "viewer/mesher.hpp"
 #include "viewer/motion.hpp"
 #include "viewer/offscreen.hpp"
+#include "viewer/picture_notes.hpp"
 #include "viewer/recording.hpp"
 #include "viewer/renderer.hpp"
 #include "viewer/scene_facts.hpp"
@@ -55,6 +56,7 @@ class Flight {
           budget_(options.budget, start.tau_px),
           view_(start),
           facts_(scene_facts(scene.info())) {
+        panels_.picture_marks = options.picture_marks;
         if (options.play) motion_.play(*options.play);
         if (!options.record.empty()) recording_.emplace(options.record);
         figures_.gl = gl_description();
@@ -290,31 +292,29 @@ class Flight {
         std::optional<double> reached;
         if (options_.budget.any() || figures_.tau_reached_px > view_.tau_px)
             reached = figures_.tau_reached_px;
-        const HudContent content{
-            .view = view_,
-            .vertical = &scene_.info().vertical,
-            .cursor = cursor_,
-            .above_ground_m = motion_.controls().above_ground(view_),
-            .speed_m_s = motion_.controls().speed(view_),
-            .triangles = figures_.triangles,
-            .tau_reached_px = reached,
-            .tau_limit = options_.budget.any() ? "budget" : "memory",
-            .playing = motion_.playing(),
-            .recording = recording_.has_value(),
-            .following = motion_.controls().following(),
-            .frame_ms = frame_times_.shown(),
-            .pending = pending(),
-            .middle_distance_m = middle_distance_,
-            .message = desk_.message(),
-            .cursor_is_preview = cursor_is_preview_,
-            .keys_shown = panels_.keys_shown,
-            .panel_width = hidden_ ? 0 : panels_.panel_width(desk_),
-            .tools = tools(),
-            .facts = facts_,
-            .labels = labels_.labels(terrain_, renderer_, view_, view, ground_rests()),
-            .legend = legend(view_.layer, span(), view_.ocean.kind != OceanKind::off && ground_.facts.has_sea,
-                             view_.ramp.get()),
-            .error = error_.report()};
+        const HudContent content{.view = view_,
+                                 .vertical = &scene_.info().vertical,
+                                 .cursor = cursor_,
+                                 .above_ground_m = motion_.controls().above_ground(view_),
+                                 .speed_m_s = motion_.controls().speed(view_),
+                                 .triangles = figures_.triangles,
+                                 .tau_reached_px = reached,
+                                 .tau_limit = options_.budget.any() ? "budget" : "memory",
+                                 .playing = motion_.playing(),
+                                 .recording = recording_.has_value(),
+                                 .following = motion_.controls().following(),
+                                 .frame_ms = frame_times_.shown(),
+                                 .pending = pending(),
+                                 .middle_distance_m = middle_distance_,
+                                 .message = desk_.message(),
+                                 .cursor_is_preview = cursor_is_preview_,
+                                 .keys_shown = panels_.keys_shown,
+                                 .panel_width = hidden_ ? 0 : panels_.panel_width(desk_),
+                                 .tools = tools(),
+                                 .facts = facts_,
+                                 .labels = labels_.labels(terrain_, renderer_, view_, view, ground_rests()),
+                                 .legend = legend(view_, ground_.facts),
+                                 .error = error_.report()};
         std::vector<Wish> wishes;
         if (!hidden_) {
             std::optional<geo::Ecef> pin;
@@ -326,10 +326,6 @@ class Flight {
         }
         desk_.end();
         return wishes;
-    }
-
-    HeightSpan span() const {
-        return {ground_.facts.lowest_m, ground_.facts.highest_m, ground_.facts.lowest_land_m};
     }
 
     /// As settings name the scene.
@@ -558,9 +554,14 @@ class Flight {
         tell(fmt::format("copied the {}", what));
     }
 
+    PictureNotes notes(const Picture& picture) const {
+        return picture_notes(scene_, terrain_, heights_, view_, picture.width, picture.height);
+    }
+
     Result<void> take_screenshot() {
         const auto file = fresh_file(options_.output_folder, "relevo", "png");
-        if (auto done = write_picture(window_.read_back(), file, to_string(view_)); !done) return done;
+        const Picture picture = window_.read_back();
+        if (auto done = write_picture(picture, file, notes(picture)); !done) return done;
         say(fmt::format("screenshot {}", file.string()));
         return {};
     }
@@ -572,10 +573,13 @@ class Flight {
         const auto file = fresh_file(options_.output_folder, "relevo", "png");
         auto painter = OffscreenPainter::create_here(terrain_, ground_, heights_);
         if (!painter) return tell(painter.error().message);
-        const auto drawn = painter->draw(
-            view_, {.width = times * width, .height = times * height, .samples = 1, .timed = false});
+        const auto drawn = painter->draw(view_, {.width = times * width,
+                                                 .height = times * height,
+                                                 .samples = 1,
+                                                 .timed = false,
+                                                 .marks = panels_.picture_marks});
         if (!drawn) return tell(drawn.error().message);
-        if (auto done = write_picture(drawn->picture, file, to_string(view_)); !done)
+        if (auto done = write_picture(drawn->picture, file, notes(drawn->picture)); !done)
             return tell(done.error().message);
         say(fmt::format("picture {}", file.string()));
     }

@@ -122,6 +122,18 @@ void drawing(ViewState& view) {
         view.ocean.kind = ocean ? OceanKind::automatic : OceanKind::off;
 }
 
+void mark_choices(Marks& marks) {
+    ImGui::Separator();
+    ImGui::TextDisabled("On large pictures (Ctrl P)");
+    ImGui::Checkbox("legend", &marks.legend);
+    ImGui::SameLine();
+    ImGui::Checkbox("scale", &marks.scale);
+    ImGui::SameLine();
+    ImGui::Checkbox("north", &marks.north);
+    ImGui::SameLine();
+    ImGui::Checkbox("labels", &marks.labels);
+}
+
 }  // namespace
 
 void Panels::sun(const Ui& ui, ViewState& view) {
@@ -220,6 +232,7 @@ void Panels::side_panel(Desk& desk, ViewState& view, const HudContent& content, 
             drawing(view);
             sun(desk.ui(), view);
             overlay_choices(view);
+            mark_choices(picture_marks);
             ImGui::EndTabItem();
         }
         const bool measured =

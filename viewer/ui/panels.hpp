@@ -6,6 +6,7 @@
 
 #include "viewer/flight_keys.hpp"
 #include "viewer/flight_path.hpp"
+#include "viewer/marks.hpp"
 #include "viewer/measuring.hpp"
 #include "viewer/ui/desk.hpp"
 #include "viewer/ui/file_chooser.hpp"
@@ -46,6 +47,7 @@ class Panels {
     bool close();
 
     bool keys_shown = false;
+    Marks picture_marks;  ///< of large pictures
 
   private:
     void toolbar(Desk& desk, const HudContent& content, std::vector<Wish>& wishes);
