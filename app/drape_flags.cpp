@@ -48,11 +48,12 @@ class ImageDrape final : public viewer::Drape {
 
 class VectorDrape final : public viewer::Drape {
   public:
-    VectorDrape(std::shared_ptr<const ingest::VectorFile> lines, const geo::GridFrame& frame)
-        : lines_(std::move(lines)), finer_(most_finer(frame)) {}
+    VectorDrape(std::shared_ptr<const ingest::VectorFile> lines, const geo::GridFrame& frame,
+                std::array<std::uint8_t, 3> colour)
+        : lines_(std::move(lines)), finer_(most_finer(frame)), colour_(colour) {}
 
     int finer() const override { return finer_; }
-    bool is_lines() const override { return true; }
+    std::optional<std::array<std::uint8_t, 3>> line_colour() const override { return colour_; }
     Result<viewer::DrapeTexels> read(const viewer::Page& page) const override {
         return lines_->draw(square_of(page, finer_));
     }
@@ -60,6 +61,7 @@ class VectorDrape final : public viewer::Drape {
   private:
     std::shared_ptr<const ingest::VectorFile> lines_;
     int finer_;
+    std::array<std::uint8_t, 3> colour_;
 };
 
 /// FILE[,OPACITY]; a file's own name may have commas.
@@ -125,12 +127,12 @@ Result<viewer::Drapes> read_drapes(const ViewFlags& flags, const geo::GridFrame&
     for (std::size_t i = 0; i < flags.vectors.size(); ++i) {
         const auto flag = parse("--vectors", flags.vectors[i]);
         if (!flag) return flag.error();
-        auto lines = ingest::VectorFile::open(flag->file, frame, kColours[i]);
+        auto lines = ingest::VectorFile::open(flag->file, frame);
         if (!lines) return Error{lines.error().kind, "--vectors: " + lines.error().message};
         place(view, {.kind = Overlay::Kind::vectors,
                      .opacity = flag->opacity,
                      .file = static_cast<int>(drapes.size())});
-        drapes.push_back(std::make_shared<VectorDrape>(*std::move(lines), frame));
+        drapes.push_back(std::make_shared<VectorDrape>(*std::move(lines), frame, kColours[i]));
     }
     return drapes;
 }

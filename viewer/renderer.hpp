@@ -95,6 +95,7 @@ class Renderer {
         Shading shading;
         bool wireframe, sun_fixed, sky, ocean, probe;
         std::vector<DrawnOverlay> overlays;
+        int areas;  ///< of the graticule
         friend auto operator<=>(const Variant&, const Variant&) = default;
     };
     Variant variant(const DrawSettings& settings) const;

@@ -85,6 +85,9 @@ float lit_by(vec3 normal, vec3 sun) {
 float lit_by(vec3 normal, vec3 sun) { return max(dot(normal, sun), 0.0); }
 #endif
 
+#define OVERLAY_GRID surface.grid
+#define OVERLAY_SHARE 1.0
+
 void main() {
     // All that needs the neighbours' values comes before the discard.
     vec2 x = abs(dFdx(surface.grid));
@@ -105,13 +108,16 @@ void main() {
     float height = here.z / max(here.a, 1e-3);
     float height_slope = slope_of(height);
 #endif
+#ifdef DRAPES
+    vec4 grid_steps = vec4(dFdx(surface.grid), dFdy(surface.grid));
+#endif
 #ifdef GRATICULE
-    vec2 graticule = graticule_at(surface.from_anchor);
+    GraticulePlace graticule = graticule_at(surface.from_anchor);
 #ifdef POLE
     if (GRATICULE.y > 0.0)
-        graticule = polar_graticule_at(frame.place.xy + surface.grid.yx * frame.place.zw, GRATICULE.yz);
+        graticule.value = polar_graticule_at(frame.place.xy + surface.grid.yx * frame.place.zw, GRATICULE.yz);
 #endif
-    vec2 graticule_slope = graticule_slopes(graticule);
+    graticule.slopes = graticule_slopes(graticule.value);
 #endif
 #ifdef VOIDS
     if (!is_whole(cell, min(max(x.x, x.y), max(y.x, y.y)))) discard;
@@ -203,7 +209,11 @@ void main() {
 #else
     const float dry = 1.0;
 #endif
+#ifdef COVER
+    float bright = 0.2 + 0.6 * ground.snow * day;
+#else
     float bright = brightness(shown);
+#endif
     OVERLAYS
 #endif
     // The ground from below. Only where the eye can be there: seen from above, a sliver on a ridge may turn its back by
