@@ -52,12 +52,12 @@ class ImageDrape final : public viewer::Drape {
 class VectorDrape final : public viewer::Drape {
   public:
     VectorDrape(std::string name, std::shared_ptr<const ingest::VectorFile> lines,
-                const geo::GridFrame& frame)
-        : name_(std::move(name)), lines_(std::move(lines)), finer_(most_finer(frame)) {}
+                const geo::GridFrame& frame, std::array<std::uint8_t, 3> colour)
+        : name_(std::move(name)), lines_(std::move(lines)), finer_(most_finer(frame)), colour_(colour) {}
 
     std::string name() const override { return name_; }
     int finer() const override { return finer_; }
-    bool is_lines() const override { return true; }
+    std::optional<std::array<std::uint8_t, 3>> line_colour() const override { return colour_; }
     Result<viewer::DrapeTexels> read(const viewer::Page& page) const override {
         return lines_->draw(square_of(page, finer_));
     }
@@ -66,6 +66,7 @@ class VectorDrape final : public viewer::Drape {
     std::string name_;
     std::shared_ptr<const ingest::VectorFile> lines_;
     int finer_;
+    std::array<std::uint8_t, 3> colour_;
 };
 
 std::string name_of(const std::string& file) {
@@ -110,10 +111,10 @@ Result<std::shared_ptr<const viewer::Drape>> open_lines(const std::string& file,
                                                         std::size_t colour) {
     constexpr std::array<std::array<std::uint8_t, 3>, 4> kColours{
         {{214, 20, 110}, {0, 110, 200}, {214, 92, 0}, {110, 40, 170}}};
-    auto lines = ingest::VectorFile::open(file, frame, kColours[colour % kColours.size()]);
+    auto lines = ingest::VectorFile::open(file, frame);
     if (!lines) return lines.error();
     return std::shared_ptr<const viewer::Drape>(
-        std::make_shared<VectorDrape>(name_of(file), *std::move(lines), frame));
+        std::make_shared<VectorDrape>(name_of(file), *std::move(lines), frame, kColours[colour % kColours.size()]));
 }
 
 viewer::LayerFiles layer_files() {

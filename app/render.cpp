@@ -16,6 +16,7 @@
 #include "viewer/bench/machine.hpp"
 #include "viewer/numbers.hpp"
 #include "viewer/offscreen.hpp"
+#include "viewer/picture_notes.hpp"
 
 namespace relevo::app {
 
@@ -132,6 +133,8 @@ Result<void> run(const RenderFlags& flags) {
     if (!view) return view.error();
     const auto size = read_size(flags.view, {});
     if (!size) return size.error();
+    const auto marks = read_marks(flags.view, *size);
+    if (!marks) return marks.error();
     const auto samples = read_samples(flags.view, 4);
     if (!samples) return samples.error();
     const auto budget = read_budget(flags.budget);
@@ -182,14 +185,17 @@ Result<void> run(const RenderFlags& flags) {
                                          .samples = *samples,
                                          .background = *background,
                                          .measure_error = flags.measure_error,
-                                         .max_triangles = budget->triangles};
+                                         .max_triangles = budget->triangles,
+                                         .marks = *marks};
+    const auto notes = [&](const viewer::ViewState& seen) {
+        return viewer::picture_notes(*scene, *terrain, heights, seen, size->width, size->height);
+    };
     if (play)
         return draw_frames(flags, *terrain, ground, heights,
-                           {flags.output, *play, flags.fps, *view, request});
+                           {flags.output, *play, flags.fps, *view, request, notes});
     const auto finished = viewer::draw_picture(*terrain, ground, heights, *view, request);
     if (!finished) return finished.error();
-    if (auto done = viewer::write_picture(finished->picture, flags.output, to_string(*view)); !done)
-        return done;
+    if (auto done = viewer::write_picture(finished->picture, flags.output, notes(*view)); !done) return done;
     if (flags.common.json) {
         fmt::print("{}\n", to_json(*view, request, finished->figures, flags.output).dump(2));
     } else {

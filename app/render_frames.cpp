@@ -39,7 +39,7 @@ Result<int> render_frames(const FrameRequest& request, viewer::OffscreenPainter&
         put(view, flight.at(flight.begin_s() + i / request.fps));
         const auto drawn = painter.draw(view, request.picture);
         if (!drawn) return drawn.error();
-        if (auto done = viewer::write_picture(drawn->picture, *name, to_string(view)); !done)
+        if (auto done = viewer::write_picture(drawn->picture, *name, request.notes(view)); !done)
             return done.error();
     }
     progress(1);

@@ -16,6 +16,8 @@ struct FrameRequest {
     double fps = 30;
     viewer::ViewState view;  ///< how it is drawn; where from is the flight's
     viewer::PictureRequest picture;
+    /// What each picture says of itself.
+    std::function<viewer::PictureNotes(const viewer::ViewState&)> notes;
 };
 
 /// A file's name: the number in the pattern's place. Fails with ErrorKind::usage where the pattern has no

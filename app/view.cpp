@@ -116,6 +116,9 @@ Result<Request> read_request(const WindowFlags& flags) {
     const auto size = read_size(flags.view, {});
     if (!size) return size.error();
     request.size = *size;
+    const auto marks = read_marks(flags.view, {});
+    if (!marks) return marks.error();
+    request.flight.picture_marks = *marks;
     if (flags.view.samples) {
         const auto samples = read_samples(flags.view, 0);
         if (!samples) return samples.error();

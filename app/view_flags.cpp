@@ -97,7 +97,11 @@ void add_picture_flags(CLI::App& command, ViewFlags& flags) {
         "Lines of equal height over it, so many metres apart");
     add("--graticule", flags.graticule, "auto|latlon|utm|off[,OPACITY]",
         "Lines of latitude and longitude, or of the UTM zone below the eye");
+    add("--shading", flags.shading, "sun|multidirectional|oblique|combined",
+        "How light shows the shape of tints, hillshade and levels [sun]");
     add("--sun", flags.sun, "auto|AZ,EL|TIME", "Where the light comes from; TIME is ISO 8601 [auto: 315,45]");
+    add("--haze", flags.haze, "on|off|KM",
+        "Air in front of what is far; KM: how far a dark thing is seen at the sea's level [on: 586.8]");
     add("--ocean", flags.ocean, "auto|geoclipmap|radial|projected|off", "The sea's mesh [auto]");
     add("--wind", flags.wind, "SPEED,FROM", "What raises the waves, m/s and degrees; 0: a flat sea [6,300]");
     add("--waves", flags.waves, "MAP[,TILE_M[,HEIGHT_M]]",
@@ -129,6 +133,8 @@ void add_view_flags(CLI::App& command, ViewFlags& flags) {
         "What --layer terrain is made of: a georeferenced raster of four bands of bytes, the weights of "
         "grass, "
         "rock, gravel and snow");
+    add("--marks", flags.marks, "all|none|legend,scale,north,labels",
+        "Drawn over the picture; with view over those of Ctrl P [none]");
     add_picture_flags(command, flags);
 }
 
@@ -178,7 +184,9 @@ Result<viewer::ViewState> read_view(const ViewFlags& flags, const viewer::ViewSt
     if (done && flags.metric) done = keep("--metric", viewer::parse_metric(*flags.metric), view.metric);
     if (done && flags.morph) done = keep("--morph", viewer::parse_switch(*flags.morph), view.morph);
     if (done && flags.layer) done = keep("--layer", viewer::parse_layer(*flags.layer), view.layer);
+    if (done && flags.shading) done = keep("--shading", viewer::parse_shading(*flags.shading), view.shading);
     if (done && flags.sun) done = keep("--sun", viewer::parse_sun(*flags.sun), view.sun);
+    if (done && flags.haze) done = keep("--haze", viewer::parse_haze(*flags.haze), view.haze);
     if (done && flags.ocean) done = keep("--ocean", viewer::parse_ocean(*flags.ocean), view.ocean.kind);
     if (done && flags.wind) done = keep("--wind", viewer::parse_wind(*flags.wind), view.ocean.wind);
     if (done && flags.contours)
@@ -226,6 +234,16 @@ Result<PictureSize> read_size(const ViewFlags& flags, PictureSize base) {
             fmt::format("--size {}: expected WIDTHxHEIGHT, each 1 to {}", text, viewer::kLargestPicture));
     }
     return PictureSize{*width, *height};
+}
+
+Result<viewer::Marks> read_marks(const ViewFlags& flags, PictureSize size) {
+    if (!flags.marks) return viewer::Marks{};
+    const auto marks = viewer::parse_marks(*flags.marks);
+    if (!marks) return usage("--marks: " + marks.error().message);
+    if (marks->any() && (size.width < viewer::kLeastMarkedWidth || size.height < viewer::kLeastMarkedHeight))
+        return usage(fmt::format("--marks: a picture with marks has at least {} x {} pixels",
+                                 viewer::kLeastMarkedWidth, viewer::kLeastMarkedHeight));
+    return *marks;
 }
 
 Result<int> read_samples(const ViewFlags& flags, int base) {

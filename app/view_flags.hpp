@@ -13,6 +13,7 @@
 #include "lod/terrain.hpp"
 #include "viewer/eye_height.hpp"
 #include "viewer/frame_budget.hpp"
+#include "viewer/marks.hpp"
 #include "viewer/view_state.hpp"
 
 namespace relevo::app {
@@ -24,8 +25,8 @@ struct PictureSize {
 
 /// The flags that say what is seen: shared by the commands that draw.
 struct ViewFlags {
-    std::optional<std::string> at, eye, size, method, metric, morph, layer, sun, ocean, wind, waves,
-        ground_map, contours, graticule, ramp;
+    std::optional<std::string> at, eye, size, method, metric, morph, layer, shading, sun, haze, marks, ocean,
+        wind, waves, ground_map, contours, graticule, ramp;
     std::vector<std::string> imagery, vectors;
     std::optional<double> heading, pitch, roll, fov, tau, exaggeration, time;
     bool wireframe = false;
@@ -59,6 +60,9 @@ void place_view(viewer::ViewState& view, const ViewFlags& flags, const lod::Scen
                 const lod::Terrain& terrain, const viewer::EyeHeight& heights, PictureSize size);
 
 Result<PictureSize> read_size(const ViewFlags& flags, PictureSize base);
+
+/// --marks. \param size  of the picture; in smaller ones than marks need they are refused
+Result<viewer::Marks> read_marks(const ViewFlags& flags, PictureSize size);
 
 /// 1, 4 or 8.
 Result<int> read_samples(const ViewFlags& flags, int base);

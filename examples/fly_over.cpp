@@ -68,7 +68,7 @@ relevo::Result<void> fly(const fs::path& scene, const fs::path& folder, int pict
         target->read_into(picture, 0, 0);
         char name[32];
         std::snprintf(name, sizeof name, "flight-%02d.png", i + 1);
-        if (auto done = write_picture(picture, folder / name, to_string(view)); !done) return done;
+        if (auto done = write_picture(picture, folder / name, {to_string(view)}); !done) return done;
         std::printf("%s: %llu triangles\n", name,
                     static_cast<unsigned long long>(viewer->figures().triangles));
     }

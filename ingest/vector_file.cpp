@@ -104,13 +104,37 @@ Result<Lines> read_lines(const std::string& file, const std::string& name) {
     return lines;
 }
 
-double distance_to(const VectorFile::Segment& s, double x, double y) {
+/// From a place to the nearest of a segment.
+struct Way {
+    double x = 0;
+    double y = 0;
+    double length() const { return std::hypot(x, y); }
+};
+Way way_to(const VectorFile::Segment& s, double x, double y) {
     const double dx = s.to.column - s.from.column;
     const double dy = s.to.row - s.from.row;
     const double square = dx * dx + dy * dy;
     const double t =
         square > 0 ? std::clamp(((x - s.from.column) * dx + (y - s.from.row) * dy) / square, 0.0, 1.0) : 0;
-    return std::hypot(s.from.column + t * dx - x, s.from.row + t * dy - y);
+    return {s.from.column + t * dx - x, s.from.row + t * dy - y};
+}
+
+std::uint8_t code(double value, double steps) {
+    return static_cast<std::uint8_t>(std::clamp(std::lround(128 + steps * value), 1L, 255L));
+}
+
+/// Of a line that is some way off.
+std::array<std::uint8_t, 2> line_code(const Way& way, const VectorFile::Segment& s) {
+    constexpr double kPi = 3.14159265358979323846;
+    // Across what is very near one sees better from the line itself.
+    const bool near = way.length() < 0.25;
+    double across =
+        near ? std::atan2(s.to.column - s.from.column, s.from.row - s.to.row) : std::atan2(way.y, way.x);
+    if (across < 0) across += kPi;
+    const auto angle = static_cast<unsigned>(std::lround(across / kPi * 256)) & 255U;
+    const double turned = angle * kPi / 256;
+    return {static_cast<std::uint8_t>(angle),
+            code(way.x * std::cos(turned) + way.y * std::sin(turned), VectorFile::kLineSteps)};
 }
 
 }  // namespace
@@ -131,17 +155,17 @@ bool is_vector_file(const std::string& file) {
 VectorFile::VectorFile(const geo::GridFrame& frame) : frame_(frame), bins_(kBins * kBins) {}
 
 Result<std::shared_ptr<const VectorFile>> VectorFile::open(const std::string& file,
-                                                           const geo::GridFrame& frame,
-                                                           std::array<std::uint8_t, 3> colour) {
+                                                           const geo::GridFrame& frame) {
     const std::string name = std::filesystem::path(file).filename().string();
     const auto lines = read_lines(file, name);
     if (!lines) return lines.error();
     std::shared_ptr<VectorFile> made(new VectorFile(frame));
-    made->colour_ = colour;
     for (const auto& line : *lines) {
         for (std::size_t i = line.size() > 1 ? 1 : 0; i < line.size(); ++i) {
             const auto from = frame.grid_position(line[i == 0 ? 0 : i - 1]);
             const auto to = frame.grid_position(line[i]);
+            // Who stands still makes no point.
+            if (line.size() > 1 && from.column == to.column && from.row == to.row) continue;
             // Over the seam of the grid's longitudes there is no way that the grid shows.
             if (std::abs(to.column - from.column) * frame.step_x < 180 || frame.is_polar())
                 made->add({from, to});
@@ -193,9 +217,11 @@ std::vector<std::uint32_t> VectorFile::near(double west, double north, double ea
 
 ImageTexels VectorFile::draw(const GridSquare& square) const {
     const auto side = static_cast<std::size_t>(square.side);
-    constexpr double kReach = kPointTexels + kRimTexels + 1;
-    // The nearest line's edge of each texel, in texels: below 0 inside of it.
-    std::vector<float> off(side * side, static_cast<float>(kReach));
+    constexpr double kReach = kPointReach + 1;
+    ImageTexels texels(side * side);
+    // How far the nearest line and the nearest point are that the texels tell of.
+    std::vector<float> line_off(side * side, static_cast<float>(kLineReach));
+    std::vector<float> point_off(side * side, static_cast<float>(kPointReach));
     const double reach = kReach * square.step;
     const double width = square.side * square.step;
     for (const std::uint32_t i : near(square.column - reach, square.row - reach,
@@ -207,7 +233,8 @@ ImageTexels VectorFile::draw(const GridSquare& square) const {
         };
         const Segment all{to_texels(segments_[i].from), to_texels(segments_[i].to)};
         const double length = std::hypot(all.to.column - all.from.column, all.to.row - all.from.row);
-        const double half = length > 0 ? 0.5 * kLineTexels : kPointTexels;
+        const bool is_point = length == 0;
+        const double near_by = is_point ? kPointReach : kLineReach;
         // The part of it that is near the square.
         double begin = 0;
         double end = 1;
@@ -218,7 +245,7 @@ ImageTexels VectorFile::draw(const GridSquare& square) const {
                 if (from < low || from > high) end = -1;
                 return;
             }
-            const auto [first, last] = std::minmax((low - from) / (to - from), (high - from) / (to - from));
+            const auto [first, last] = std::minmax({(low - from) / (to - from), (high - from) / (to - from)});
             begin = std::max(begin, first);
             end = std::min(end, last);
         };
@@ -234,28 +261,31 @@ ImageTexels VectorFile::draw(const GridSquare& square) const {
             };
             const Segment s{at(piece), at(piece + 1)};
             const auto first = [&](double a, double b) {
-                return std::max(static_cast<int>(std::min(a, b) - kReach), 0);
+                return std::max(static_cast<int>(std::min(a, b) - near_by), 0);
             };
             const auto last = [&](double a, double b) {
-                return std::min(static_cast<int>(std::max(a, b) + kReach) + 1, square.side - 1);
+                return std::min(static_cast<int>(std::max(a, b) + near_by) + 1, square.side - 1);
             };
             for (int r = first(s.from.row, s.to.row); r <= last(s.from.row, s.to.row); ++r) {
                 for (int c = first(s.from.column, s.to.column); c <= last(s.from.column, s.to.column); ++c) {
-                    float& nearest = off[static_cast<std::size_t>(r) * side + static_cast<std::size_t>(c)];
-                    nearest = std::min(nearest, static_cast<float>(distance_to(s, c, r) - half));
+                    const std::size_t i_texel =
+                        static_cast<std::size_t>(r) * side + static_cast<std::size_t>(c);
+                    const Way way = way_to(s, c, r);
+                    const auto off = static_cast<float>(way.length());
+                    float& nearest = (is_point ? point_off : line_off)[i_texel];
+                    if (off >= nearest) continue;
+                    nearest = off;
+                    if (is_point) {
+                        texels[i_texel][2] = code(way.x, kPointSteps);
+                        texels[i_texel][3] = code(way.y, kPointSteps);
+                    } else {
+                        const auto line = line_code(way, s);
+                        texels[i_texel][0] = line[0];
+                        texels[i_texel][1] = line[1];
+                    }
                 }
             }
         }
-    }
-    ImageTexels texels(side * side);
-    for (std::size_t i = 0; i < texels.size(); ++i) {
-        const double inside = std::clamp(0.5 - static_cast<double>(off[i]), 0.0, 1.0);
-        const double alpha =
-            std::max(inside, 0.8 * std::clamp(0.5 + kRimTexels - static_cast<double>(off[i]), 0.0, 1.0));
-        for (std::size_t k = 0; k < 3; ++k)
-            texels[i][k] =
-                static_cast<std::uint8_t>(std::lround(inside * colour_[k] + (alpha - inside) * 255));
-        texels[i][3] = static_cast<std::uint8_t>(std::lround(255 * alpha));
     }
     return texels;
 }

@@ -15,7 +15,7 @@ namespace relevo::ingest {
 /// Is a file in a format that VectorFile reads, with a layer of geometries in it?
 bool is_vector_file(const std::string& file);
 
-/// Lines and points of a file, as they lie on a scene's grid, to be drawn into texels. Polygons are their
+/// Lines and points of a file, as they lie on a scene's grid, to be told texel by texel. Polygons are their
 /// rings.
 class VectorFile {
   public:
@@ -23,14 +23,20 @@ class VectorFile {
     /// in any CRS; of GPX the tracks, routes and waypoints. Straight lines of the file's CRS stay straight in
     /// it. Fails with ErrorKind::input where the file cannot be read or has none in the grid.
     static Result<std::shared_ptr<const VectorFile>> open(const std::string& file,
-                                                          const geo::GridFrame& frame,
-                                                          std::array<std::uint8_t, 3> colour);
+                                                          const geo::GridFrame& frame);
 
-    /// Lines kLineTexels wide with a white rim, points as discs, whatever the texels' size. From any thread.
+    /// Where from each texel the nearest line and the nearest point are, so that whoever draws them can make
+    /// them as wide as he likes. From any thread.
+    ///
+    /// First and second byte: the direction across the line, in 256ths of half a turn from the columns'
+    /// towards the rows', and how far along it the line is, 128 + kLineSteps a texel; 0 where none is within
+    /// kLineReach. Third and fourth: how many columns and rows on the point is, 128 + kPointSteps a texel; 0
+    /// where none is within kPointReach.
     ImageTexels draw(const GridSquare& square) const;
-    static constexpr double kLineTexels = 5.0;
-    static constexpr double kPointTexels = 7.0;  ///< radius
-    static constexpr double kRimTexels = 1.4;
+    static constexpr double kLineSteps = 16;
+    static constexpr double kLineReach = 7.9;
+    static constexpr double kPointSteps = 8;
+    static constexpr double kPointReach = 15.8;  ///< either way
 
     /// In posts.
     struct Segment {
@@ -47,7 +53,6 @@ class VectorFile {
 
     static constexpr int kBins = 64;  // a side
     geo::GridFrame frame_;
-    std::array<std::uint8_t, 3> colour_{};
     std::vector<Segment> segments_;
     std::vector<std::vector<std::uint32_t>> bins_;
 };

@@ -4,9 +4,11 @@ namespace relevo::viewer {
 
 DrawSettings draw_settings(const ViewState& view) {
     DrawSettings settings{.layer = view.layer,
+                          .shading = view.shading,
                           .wireframe = view.wireframe,
                           .exaggeration = view.exaggeration,
                           .sun = view.sun,
+                          .haze = view.haze,
                           .ocean = view.ocean,
                           .overlays = view.layer == Layer::plain ? Overlays{} : view.overlays,
                           .ramp = view.ramp};

@@ -4,10 +4,12 @@
 #include <memory>
 #include <optional>
 
+#include "viewer/haze.hpp"
 #include "viewer/height_ramp.hpp"
 #include "viewer/layer.hpp"
 #include "viewer/ocean/ocean_settings.hpp"
 #include "viewer/overlay.hpp"
+#include "viewer/shading.hpp"
 #include "viewer/sun_setting.hpp"
 #include "viewer/view_state.hpp"
 
@@ -16,9 +18,11 @@ namespace relevo::viewer {
 /// How a scene is drawn.
 struct DrawSettings {
     Layer layer = Layer::hypsometric;
+    Shading shading = Shading::sun;  ///< of tints, hillshade and levels
     bool wireframe = false;
     double exaggeration = 1;
     SunSetting sun = {};
+    Haze haze = {};
     /// A flat colour, 0 to 1, instead of sky, horizon and haze.
     std::optional<std::array<float, 3>> background = {};
     OceanSettings ocean = {.kind = OceanKind::off};

@@ -318,9 +318,7 @@ class Flight {
             .tools = tools(),
             .facts = facts_,
             .labels = labels_.labels(flight_.terrain, *renderer_, flight_.view, view, ground_rests()),
-            .legend = legend(flight_.view.layer, span(),
-                             flight_.view.ocean.kind != OceanKind::off && flight_.ground.facts.has_sea,
-                             flight_.view.ramp.get()),
+            .legend = legend(flight_.view, flight_.ground.facts),
             .error = flight_.error.report()};
         std::vector<Wish> wishes;
         if (!flight_.hidden) {
@@ -336,11 +334,6 @@ class Flight {
         }
         flight_.desk.end();
         return wishes;
-    }
-
-    HeightSpan span() const {
-        return {flight_.ground.facts.lowest_m, flight_.ground.facts.highest_m,
-                flight_.ground.facts.lowest_land_m};
     }
 
     std::vector<ToolButton> tools() const {

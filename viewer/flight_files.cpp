@@ -8,6 +8,7 @@
 
 #include "viewer/offscreen.hpp"
 #include "viewer/picture.hpp"
+#include "viewer/picture_notes.hpp"
 #include "viewer/recording.hpp"
 
 namespace relevo::viewer {
@@ -18,12 +19,17 @@ std::filesystem::path output_file(const FlightState& flight, const char* name, c
     return fresh_file(flight.options.output_folder, name, ending);
 }
 
+PictureNotes notes(const FlightState& flight, const Picture& picture) {
+    return picture_notes(flight.scene, flight.terrain, flight.heights, flight.view, picture.width,
+                         picture.height);
+}
+
 }  // namespace
 
 Result<void> take_screenshot(FlightState& flight) {
     const auto file = output_file(flight, "relevo", "png");
-    if (auto done = write_picture(flight.desk.window().read_back(), file, to_string(flight.view)); !done)
-        return done;
+    const Picture picture = flight.desk.window().read_back();
+    if (auto done = write_picture(picture, file, notes(flight, picture)); !done) return done;
     flight.say(fmt::format("screenshot {}", file.string()));
     return {};
 }
@@ -34,10 +40,13 @@ void take_large_picture(FlightState& flight, int width, int height) {
     const auto file = output_file(flight, "relevo", "png");
     auto painter = OffscreenPainter::create_here(flight.terrain, flight.ground, flight.heights);
     if (!painter) return flight.tell(painter.error().message);
-    const auto drawn = painter->draw(
-        flight.view, {.width = times * width, .height = times * height, .samples = 1, .timed = false});
+    const auto drawn = painter->draw(flight.view, {.width = times * width,
+                                                   .height = times * height,
+                                                   .samples = 1,
+                                                   .timed = false,
+                                                   .marks = flight.panels.picture_marks});
     if (!drawn) return flight.tell(drawn.error().message);
-    if (auto done = write_picture(drawn->picture, file, to_string(flight.view)); !done)
+    if (auto done = write_picture(drawn->picture, file, notes(flight, drawn->picture)); !done)
         return flight.tell(done.error().message);
     flight.say(fmt::format("picture {}", file.string()));
 }

@@ -10,6 +10,7 @@
 #include "viewer/flight_path.hpp"
 #include "viewer/frame_budget.hpp"
 #include "viewer/layer_files.hpp"
+#include "viewer/marks.hpp"
 #include "viewer/measuring.hpp"
 
 namespace relevo::viewer {
@@ -21,6 +22,7 @@ struct FlightOptions {
     std::optional<FlightPath> play = {};  ///< replayed until it ends or the user steers or presses a key
     std::filesystem::path record = {};    ///< where what is flown is written in the end; empty: nowhere
     lod::ChunkOptions chunks = {};        ///< how nodes are kept and loaded, with Method::lstr
+    Marks picture_marks = {};             ///< of large pictures, at first
     BudgetLimits budget = {};             ///< where it has limits, tau adapts to them
     MeasurementFiles files = {};          ///< how measurements are kept
     LayerFiles layers = {};               ///< what else can be opened

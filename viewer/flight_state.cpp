@@ -17,6 +17,7 @@ FlightState::FlightState(Desk& at, const lod::Scene& over, const lod::Terrain& d
       motion(drawn_terrain, eye_heights, asked.forward_m_s),
       measuring(over, drawn_terrain, eye_heights),
       layers(ground, view.overlays, drawn_terrain.frame()) {
+    panels.picture_marks = asked.picture_marks;
     if (asked.play) motion.play(*asked.play);
     if (!asked.record.empty()) recording.emplace(asked.record);
 }

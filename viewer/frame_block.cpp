@@ -12,9 +12,6 @@ namespace relevo::viewer {
 
 namespace {
 
-/// At sea level, haze takes over 63 % of the light in this distance: clear air.
-constexpr double kVisibilityM = 150e3;
-
 /// Clip space of the whole picture to clip space of the window in it.
 glm::dmat4 crop(const lod::Camera& camera, const Window& window) {
     const double scale_x = static_cast<double>(camera.width) / window.width;
@@ -61,7 +58,8 @@ glm::vec4 vec4(const glm::dvec3& v, double w = 0) {
 }  // namespace
 
 FrameBlock frame_block(const lod::View& view, const lod::Terrain& terrain, const Window& window,
-                       const SunSetting& sun, double exaggeration, double base_m, bool may_be_below) {
+                       const SunSetting& sun, const Haze& haze, double exaggeration, double base_m,
+                       bool may_be_below) {
     const lod::Camera& camera = view.camera();
     const geo::EnuFrame local(camera.eye);
     const geo::GridFrame& grid = terrain.frame();
@@ -83,7 +81,7 @@ FrameBlock frame_block(const lod::View& view, const lod::Terrain& terrain, const
     block.sun =
         vec4(fixed ? to_sun_ecef : lamp_in_grid(here, grid), daylight * daylight * (3 - 2 * daylight));
     block.sun_at_eye = vec4(to_sun_ecef, to_sun.z);
-    block.surface = glm::dvec4(exaggeration, terrain.levels(), 1 / kVisibilityM, may_be_below ? 1 : 0);
+    block.surface = glm::dvec4(exaggeration, terrain.levels(), haze.extinction(), may_be_below ? 1 : 0);
 
     // The ray through the window's middle and its change to the window's right and upper edge.
     const double tan_x = 0.5 * camera.width / view.focal_px();

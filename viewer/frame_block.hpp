@@ -5,6 +5,7 @@
 
 #include "lod/terrain.hpp"
 #include "lod/view.hpp"
+#include "viewer/haze.hpp"
 #include "viewer/sun_setting.hpp"
 
 namespace relevo::viewer {
@@ -37,6 +38,7 @@ struct Window {
 /// \param base_m  height of the base surface, where there is no data, above the ellipsoid
 /// \param may_be_below  is the eye below the ground, as far as is known?
 FrameBlock frame_block(const lod::View& view, const lod::Terrain& terrain, const Window& window,
-                       const SunSetting& sun, double exaggeration, double base_m, bool may_be_below);
+                       const SunSetting& sun, const Haze& haze, double exaggeration, double base_m,
+                       bool may_be_below);
 
 }  // namespace relevo::viewer

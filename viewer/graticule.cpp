@@ -13,7 +13,6 @@ namespace {
 
 constexpr double kApartPx = 160;
 constexpr double kDegreeM = 111320;
-constexpr double kReachM = 50e3;
 
 /// The smallest step of degrees, minutes and seconds that is no less; below a second 0.5, 0.2, 0.1 ...
 double round_degrees(double least) {
@@ -59,14 +58,18 @@ std::array<glm::dvec2, 5> polynomial(const std::array<glm::dvec2, 5>& f) {
 
 glm::dvec2 Graticule::lines(geo::LatLon place) const {
     if (!is_utm) return glm::dvec2(place.lon.value, place.lat.value) / interval;
-    const auto at = geo::utm_position(zone, place);
+    const auto at = geo::utm_position(zone_at(place), place);
     return glm::dvec2(at.easting, at.northing) / interval;
 }
 
-std::string Graticule::text(int axis, double line) const {
+std::string Graticule::text(int axis, double line, geo::UtmZone in) const {
     const double step = interval[axis];
     const double value = std::round(line) * step;
-    if (is_utm) return fmt::format("{:.{}f} {}", value, decimals_of(step), axis == 0 ? 'E' : 'N');
+    if (is_utm) {
+        const std::string zone_text = in.number == 0 ? std::string(in.north ? "UPS N" : "UPS S")
+                                                     : fmt::format("{}{}", in.number, in.north ? 'N' : 'S');
+        return fmt::format("{} {:.{}f} {}", zone_text, value, decimals_of(step), axis == 0 ? 'E' : 'N');
+    }
     if (axis == 1) return degrees_text(value, step, 'N', 'S');
     const double lon = std::remainder(value, 360.0);
     return degrees_text(std::abs(lon) > 180 - 1e-9 ? 180 : lon, step, 'E', 'W');
@@ -75,6 +78,7 @@ std::string Graticule::text(int axis, double line) const {
 Graticule suitable_graticule(bool utm, geo::LatLon eye, double pixel_m) {
     Graticule made{.is_utm = utm};
     if (utm) {
+        made.every_zone = true;
         made.zone = geo::utm_zone(eye);
         made.interval = glm::dvec2(round_step(kApartPx * pixel_m));
         return made;
@@ -85,50 +89,125 @@ Graticule suitable_graticule(bool utm, geo::LatLon eye, double pixel_m) {
     return made;
 }
 
-GraticuleTerms graticule_terms(const Graticule& graticule, const geo::GridFrame& grid, geo::LatLon around) {
-    const geo::GridPosition at = grid.grid_position(around);
-    GraticuleTerms made;
-    made.anchor = {std::round(std::clamp(at.column, 0.0, grid.columns - 1.0)),
-                   std::round(std::clamp(at.row, 0.0, grid.rows - 1.0))};
-    const auto spacing = grid.spacing({made.anchor.x, made.anchor.y});
-    made.reach = {kReachM / std::max(spacing.column_m, 1e-6), kReachM / std::max(spacing.row_m, 1e-6)};
-    if (!graticule.is_utm && !grid.is_polar()) {
-        // Here differences of rounded values would be all that there is of the higher terms.
-        made.terms.fill(glm::dvec2(0));
-        made.terms[0] = graticule.lines(grid.lat_lon({made.anchor.x, made.anchor.y}));
-        made.terms[1].x = grid.step_x * made.reach.x / graticule.interval.x;
-        made.terms[5].y = -grid.step_y * made.reach.y / graticule.interval.y;
-        made.terms[0] -= glm::dvec2(std::round(made.terms[0].x), std::round(made.terms[0].y));
-        return made;
-    }
+namespace {
+
+using Area = GraticuleTerms::Area;
+
+/// Sets an area's terms from the exact values around its centre.
+void fit(Area& area, const GraticuleTerms& made, const geo::GridFrame& grid, const Graticule& of_zone) {
     std::array<std::array<glm::dvec2, 5>, 5> rows;  // coefficients of u
     for (std::size_t k = 0; k < 5; ++k) {
         std::array<glm::dvec2, 5> values;
         for (std::size_t i = 0; i < 5; ++i) {
             const glm::dvec2 uv(0.5 * static_cast<double>(i) - 1, 0.5 * static_cast<double>(k) - 1);
-            const glm::dvec2 place = made.anchor + uv * made.reach;
-            values[i] = graticule.lines(grid.lat_lon({place.x, place.y}));
+            const glm::dvec2 place = made.anchor + (area.centre + uv * area.reach) * made.reach;
+            values[i] = of_zone.lines(grid.lat_lon({place.x, place.y}));
         }
         rows[k] = polynomial(values);
     }
     for (std::size_t i = 0; i < 5; ++i) {
         const auto along_v = polynomial({rows[0][i], rows[1][i], rows[2][i], rows[3][i], rows[4][i]});
-        for (std::size_t k = 0; k < 5; ++k) made.terms[i + 5 * k] = along_v[k];
+        for (std::size_t k = 0; k < 5; ++k) area.terms[i + 5 * k] = along_v[k];
     }
-    made.terms[0] -= glm::dvec2(std::round(made.terms[0].x), std::round(made.terms[0].y));
+    area.terms[0] -= glm::dvec2(std::round(area.terms[0].x), std::round(area.terms[0].y));
+}
+
+/// The areas of UTM's zones in a geographic grid, as far as something is seen, the nearest first.
+void add_zones(GraticuleTerms& made, const Graticule& graticule, const geo::GridFrame& grid, double reach_m,
+               double seen_m) {
+    const geo::LatLon eye = grid.lat_lon({made.anchor.x, made.anchor.y});
+    const double lon = grid.west + made.anchor.x * grid.step_x;  // on the grid's own turn
+    const double lat = eye.lat.value;
+    const double up = std::min(seen_m / kDegreeM + 0.01, 60.0);
+    const double poleward = std::min(std::abs(lat) + up, 89.0);
+    const double along = std::min(up / std::cos(geo::Degrees{poleward}.radians()), 100.0);
+    const glm::dvec2 per_degree(1 / (grid.step_x * made.reach.x), 1 / (grid.step_y * made.reach.y));
+    struct Near {
+        geo::UtmArea area;
+        double far;
+    };
+    std::vector<Near> near;
+    // Each area costs a polynomial a pixel: none that only the sea beyond the data would need.
+    const double south = std::max({lat - up, -90.0, grid.north - (grid.rows - 1) * grid.step_y});
+    const double north = std::min({lat + up, 90.0, grid.north});
+    const double west = std::max(lon - along, grid.west);
+    const double east = std::min(lon + along, grid.west + (grid.columns - 1) * grid.step_x);
+    for (const geo::UtmArea& area : geo::utm_areas(west, south, std::max(east, west + 1e-9), north)) {
+        if (area.west > east || area.north < south || area.south > north) continue;
+        const double x = std::clamp(lon, area.west, area.east) - lon;
+        const double y = std::clamp(lat, area.south, area.north) - lat;
+        near.push_back({area, std::hypot(x * std::cos(eye.lat.radians()), y)});
+    }
+    std::stable_sort(near.begin(), near.end(), [](const Near& a, const Near& b) { return a.far < b.far; });
+    if (near.size() > GraticuleTerms::kMostAreas) near.resize(GraticuleTerms::kMostAreas);
+    for (const auto& [area, far] : near) {
+        Area part;
+        part.zone = area.zone;
+        part.bounds = {(area.west - lon) * per_degree.x, (lat - area.north) * per_degree.y,
+                       (area.east - lon) * per_degree.x, (lat - area.south) * per_degree.y};
+        part.is_border = {area.west_is_border, area.north_is_border, area.east_is_border,
+                          area.south_is_border};
+        part.centre = {std::clamp(0.0, part.bounds[0], part.bounds[2]),
+                       std::clamp(0.0, part.bounds[1], part.bounds[3])};
+        // No farther than projections go, and not over a pole.
+        const double centre_lat = std::clamp(lat, area.south, area.north);
+        const double cosine = std::max(std::cos(geo::Degrees{centre_lat}.radians()), 0.01);
+        const double reach_lat = std::min({reach_m / kDegreeM, 9.0, 0.9 * (90 - std::abs(centre_lat))});
+        const double reach_lon = std::min(reach_m / kDegreeM / cosine, 12.0);
+        part.reach = glm::dvec2(reach_lon, std::max(reach_lat, 1e-3)) * per_degree;
+        Graticule of_zone = graticule;
+        of_zone.every_zone = false;
+        of_zone.zone = area.zone;
+        fit(part, made, grid, of_zone);
+        made.areas.push_back(part);
+    }
+}
+
+}  // namespace
+
+GraticuleTerms graticule_terms(const Graticule& graticule, const geo::GridFrame& grid, geo::LatLon around,
+                               double reach_m, double seen_m) {
+    const geo::GridPosition at = grid.grid_position(around);
+    GraticuleTerms made;
+    made.anchor = {std::round(std::clamp(at.column, 0.0, grid.columns - 1.0)),
+                   std::round(std::clamp(at.row, 0.0, grid.rows - 1.0))};
+    const auto spacing = grid.spacing({made.anchor.x, made.anchor.y});
+    made.reach = {reach_m / std::max(spacing.column_m, 1e-6), reach_m / std::max(spacing.row_m, 1e-6)};
+    if (graticule.every_zone && !grid.is_polar()) {
+        add_zones(made, graticule, grid, reach_m, seen_m);
+        return made;
+    }
+    Area all;
+    all.zone = graticule.zone;
+    if (graticule.is_utm || grid.is_polar()) {
+        fit(all, made, grid, graticule);
+    } else {
+        // Here differences of rounded values would be all that there is of the higher terms.
+        all.terms.fill(glm::dvec2(0));
+        all.terms[0] = graticule.lines(grid.lat_lon({made.anchor.x, made.anchor.y}));
+        all.terms[1].x = grid.step_x * made.reach.x / graticule.interval.x;
+        all.terms[5].y = -grid.step_y * made.reach.y / graticule.interval.y;
+        all.terms[0] -= glm::dvec2(std::round(all.terms[0].x), std::round(all.terms[0].y));
+    }
+    made.areas.push_back(all);
     return made;
 }
 
-glm::dvec2 lines(const GraticuleTerms& terms, geo::GridPosition place) {
-    const double u = (place.column - terms.anchor.x) / terms.reach.x;
-    const double v = (place.row - terms.anchor.y) / terms.reach.y;
-    glm::dvec2 sum(0);
-    for (int k = 4; k >= 0; --k) {
-        glm::dvec2 row(0);
-        for (int i = 4; i >= 0; --i) row = row * u + terms.terms[static_cast<std::size_t>(i + 5 * k)];
-        sum = sum * v + row;
+std::optional<glm::dvec2> lines(const GraticuleTerms& terms, geo::GridPosition place) {
+    const glm::dvec2 at = (glm::dvec2(place.column, place.row) - terms.anchor) / terms.reach;
+    for (const Area& area : terms.areas) {
+        const auto& [west, north, east, south] = area.bounds;
+        if (at.x < west || at.x >= east || at.y < north || at.y >= south) continue;
+        const glm::dvec2 uv = (at - area.centre) / area.reach;
+        glm::dvec2 sum(0);
+        for (int k = 4; k >= 0; --k) {
+            glm::dvec2 row(0);
+            for (int i = 4; i >= 0; --i) row = row * uv.x + area.terms[static_cast<std::size_t>(i + 5 * k)];
+            sum = sum * uv.y + row;
+        }
+        return sum;
     }
-    return sum;
+    return std::nullopt;
 }
 
 }  // namespace relevo::viewer

@@ -24,7 +24,7 @@ Result<void> GroundLayers::open(const std::filesystem::path& file, FileUse use, 
     if (opening()) return Error{ErrorKind::input, fmt::format("{} is being opened; one at a time", name_)};
     name_ = file.filename().string();
     const auto vectors = std::count_if(ground_.drapes.begin(), ground_.drapes.end(),
-                                       [](const auto& drape) { return drape->is_lines(); });
+                                       [](const auto& drape) { return drape->line_colour().has_value(); });
     opening_ =
         std::async(std::launch::async,
                    [file, use, open = files.open, frame = frame_,
@@ -50,7 +50,7 @@ std::optional<Result<std::string>> GroundLayers::take_opened() {
 }
 
 void GroundLayers::add(std::shared_ptr<const Drape> drape) {
-    put_in_place(overlays_, {.kind = drape->is_lines() ? Overlay::Kind::vectors : Overlay::Kind::imagery,
+    put_in_place(overlays_, {.kind = drape->line_colour().has_value() ? Overlay::Kind::vectors : Overlay::Kind::imagery,
                              .file = static_cast<int>(ground_.drapes.size())});
     ground_.drapes.push_back(std::move(drape));
     changed_ = true;

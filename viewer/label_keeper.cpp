@@ -4,6 +4,21 @@
 
 namespace relevo::viewer {
 
+std::vector<MapLabel> labels_of(const Renderer& renderer, const lod::Terrain& terrain, const ViewState& state,
+                                const lod::View& view) {
+    std::vector<MapLabel> labels;
+    const LabelOptions options{.exaggeration = state.exaggeration};
+    const auto interval = renderer.contour_interval_m();
+    if (interval && find(state.overlays, Overlay::Kind::contours) != nullptr)
+        labels = contour_labels(terrain, view, *interval, options);
+    const auto graticule = renderer.graticule();
+    if (graticule && find(state.overlays, Overlay::Kind::graticule) != nullptr) {
+        const auto more = graticule_labels(terrain, view, *graticule, options);
+        labels.insert(labels.end(), more.begin(), more.end());
+    }
+    return labels;
+}
+
 const std::vector<MapLabel>& LabelKeeper::labels(const lod::Terrain& terrain, const Renderer& renderer,
                                                  const ViewState& state, const lod::View& view,
                                                  bool ground_rests) {
@@ -13,16 +28,7 @@ const std::vector<MapLabel>& LabelKeeper::labels(const lod::Terrain& terrain, co
     if ((ground_rests && seen == seen_) || now - made_ < kEvery) return labels_;
     made_ = now;
     seen_ = std::move(seen);
-    labels_.clear();
-    const LabelOptions options{.exaggeration = state.exaggeration};
-    const auto interval = renderer.contour_interval_m();
-    if (interval && find(state.overlays, Overlay::Kind::contours) != nullptr)
-        labels_ = contour_labels(terrain, view, *interval, options);
-    const auto graticule = renderer.graticule();
-    if (graticule && find(state.overlays, Overlay::Kind::graticule) != nullptr) {
-        const auto more = graticule_labels(terrain, view, *graticule, options);
-        labels_.insert(labels_.end(), more.begin(), more.end());
-    }
+    labels_ = labels_of(renderer, terrain, state, view);
     return labels_;
 }
 

@@ -10,6 +10,10 @@
 
 namespace relevo::viewer {
 
+/// The labels of the contours and of the graticule that a renderer's last picture had.
+std::vector<MapLabel> labels_of(const Renderer& renderer, const lod::Terrain& terrain, const ViewState& state,
+                                const lod::View& view);
+
 /// The labels of a moving picture's contours and graticule: looked for ten times a second at most, and once
 /// while neither the view nor the ground changes.
 class LabelKeeper {

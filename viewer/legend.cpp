@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "viewer/draw_settings.hpp"
 #include "viewer/ground_scale.hpp"
 
 namespace relevo::viewer {
@@ -57,6 +58,12 @@ std::optional<Legend> legend(Layer layer, const HeightSpan& span, bool has_sea, 
         default:
             return std::nullopt;
     }
+}
+
+std::optional<Legend> legend(const ViewState& view, const GroundFacts& facts) {
+    const bool has_water = draw_settings(view).ocean.kind != OceanKind::off;
+    return legend(view.layer, {facts.lowest_m, facts.highest_m, facts.lowest_land_m},
+                  facts.has_sea && !has_water, view.ramp.get());
 }
 
 }  // namespace relevo::viewer

@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "viewer/ground/ground_data.hpp"
 #include "viewer/height_ramp.hpp"
 #include "viewer/layer.hpp"
+#include "viewer/view_state.hpp"
 
 namespace relevo::viewer {
 
@@ -31,5 +33,8 @@ struct Legend {
 /// \param ramp      of the tints, where the user chose one
 std::optional<Legend> legend(Layer layer, const HeightSpan& span, bool has_sea,
                              const HeightRamp* ramp = nullptr);
+
+/// Of what a view shows. The sea has colours by depth where no water is drawn over it.
+std::optional<Legend> legend(const ViewState& view, const GroundFacts& facts);
 
 }  // namespace relevo::viewer

@@ -9,6 +9,8 @@
 #include "viewer/camera.hpp"
 #include "viewer/frame_budget.hpp"
 #include "viewer/gl_check.hpp"
+#include "viewer/label_keeper.hpp"
+#include "viewer/legend.hpp"
 
 namespace relevo::viewer {
 
@@ -70,11 +72,13 @@ bool ground_must_show(const lod::Terrain& terrain, const lod::View& view, const 
 }
 
 OffscreenPainter::OffscreenPainter(std::optional<OffscreenContext> context, Renderer renderer,
-                                   const lod::Terrain& terrain, const EyeHeight& heights)
+                                   const lod::Terrain& terrain, const GroundFacts& facts,
+                                   const EyeHeight& heights)
     : context_(std::move(context)),
       renderer_(std::move(renderer)),
       mesher_(std::make_unique<Mesher>(terrain)),
       terrain_(terrain),
+      facts_(facts),
       heights_(heights) {}
 
 Result<OffscreenPainter> OffscreenPainter::create(const lod::Terrain& terrain, const GroundData& ground,
@@ -83,14 +87,14 @@ Result<OffscreenPainter> OffscreenPainter::create(const lod::Terrain& terrain, c
     if (!context) return context.error();
     auto renderer = Renderer::create(terrain, ground);
     if (!renderer) return renderer.error();
-    return OffscreenPainter(*std::move(context), *std::move(renderer), terrain, heights);
+    return OffscreenPainter(*std::move(context), *std::move(renderer), terrain, ground.facts, heights);
 }
 
 Result<OffscreenPainter> OffscreenPainter::create_here(const lod::Terrain& terrain, const GroundData& ground,
                                                        const EyeHeight& heights) {
     auto renderer = Renderer::create(terrain, ground);
     if (!renderer) return renderer.error();
-    return OffscreenPainter(std::nullopt, *std::move(renderer), terrain, heights);
+    return OffscreenPainter(std::nullopt, *std::move(renderer), terrain, ground.facts, heights);
 }
 
 Result<FinishedPicture> draw_picture(const lod::Terrain& terrain, const GroundData& ground,
@@ -99,6 +103,36 @@ Result<FinishedPicture> draw_picture(const lod::Terrain& terrain, const GroundDa
     auto painter = OffscreenPainter::create(terrain, ground, heights);
     if (!painter) return painter.error();
     return painter->draw(view, request);
+}
+
+Result<void> OffscreenPainter::add_marks(const lod::View& view, const ViewState& state, const Marks& marks,
+                                         Picture& picture) {
+    const lod::Camera& camera = view.camera();
+    const double scale = marks_scale(camera.width, camera.height);
+    if (!marks_ || marks_->scale() != scale) {
+        marks_.reset();
+        auto made = PictureMarks::create(scale);
+        if (!made) return made.error();
+        marks_.emplace(*std::move(made));
+    }
+    MapMarks drawn{.legend = {}, .scale = {}, .north = marks.north, .labels = {}};
+    if (marks.legend) drawn.legend = legend(state, facts_);
+    const glm::dvec2 middle(0.5 * camera.width, 0.5 * camera.height);
+    if (marks.scale) {
+        const auto hit = lod::pick_exactly(terrain_, view.eye(), view.ray(middle), state.exaggeration);
+        if (hit) drawn.scale = scale_bar(view, hit->distance_m, 0.22 * camera.width);
+    }
+    if (marks.labels) {
+        // Placed in the same view as a window would show it, so that they are as far apart for their size.
+        lod::Camera small = camera;
+        small.width = static_cast<int>(std::lround(camera.width / scale));
+        small.height = static_cast<int>(std::lround(camera.height / scale));
+        drawn.labels = labels_of(renderer_, terrain_, state, lod::View(small));
+        for (MapLabel& label : drawn.labels)
+            label.pixel *= glm::dvec2(static_cast<double>(camera.width) / small.width,
+                                      static_cast<double>(camera.height) / small.height);
+    }
+    return marks_->draw(drawn, view, picture);
 }
 
 Result<FinishedPicture> OffscreenPainter::draw(const ViewState& asked, const PictureRequest& request) {
@@ -157,6 +191,9 @@ Result<FinishedPicture> OffscreenPainter::draw(const ViewState& asked, const Pic
             ground_seen = ground_seen || drawn->ground_seen;
             target->read_into(made.picture, x, y);
         }
+    }
+    if (request.marks.any()) {
+        if (auto done = add_marks(view, state, request.marks, made.picture); !done) return done.error();
     }
     figures.overlays = overlay_figures(renderer_, settings);
     figures.frame_ms = frame.ms() - loading_ms;

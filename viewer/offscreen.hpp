@@ -13,11 +13,13 @@
 #include "viewer/eye_height.hpp"
 #include "viewer/gl_context_egl.hpp"
 #include "viewer/ground/ground_data.hpp"
+#include "viewer/marks.hpp"
 #include "viewer/mesher.hpp"
 #include "viewer/ocean/ocean.hpp"
 #include "viewer/overlay_figures.hpp"
 #include "viewer/picture.hpp"
 #include "viewer/renderer.hpp"
+#include "viewer/ui/picture_marks.hpp"
 #include "viewer/view_state.hpp"
 
 namespace relevo::viewer {
@@ -31,6 +33,9 @@ struct PictureRequest {
     bool timed = true;  ///< all is made and compiled before it is drawn, so that the figures have times
     std::optional<std::uint64_t> max_triangles =
         {};  ///< tau grows, up to FrameBudget's coarsest, to keep to it
+    /// Drawn once over the whole picture, as large as it is (marks_scale). \pre where there are any, the
+    /// picture is at least kLeastMarkedWidth x kLeastMarkedHeight
+    Marks marks = {};
 };
 inline constexpr int kLargestPicture = 16384;
 
@@ -69,13 +74,17 @@ class OffscreenPainter {
 
   private:
     OffscreenPainter(std::optional<OffscreenContext> context, Renderer renderer, const lod::Terrain& terrain,
-                     const EyeHeight& heights);
+                     const GroundFacts& facts, const EyeHeight& heights);
+    Result<void> add_marks(const lod::View& view, const ViewState& state, const Marks& marks,
+                           Picture& picture);
 
     std::optional<OffscreenContext> context_;  // goes last
     Renderer renderer_;
     std::unique_ptr<Mesher> mesher_;
     const lod::Terrain& terrain_;
+    GroundFacts facts_;
     const EyeHeight& heights_;
+    std::optional<PictureMarks> marks_;  // of the last scale
 };
 
 /// One picture by a painter of its own.

@@ -15,8 +15,13 @@ struct OverlayBlock {
     /// Opacity; of contours what a texel's height is times, and what is added to it, so that lines are at
     /// whole numbers; of latitudes in a polar grid lines a radian.
     std::array<glm::vec4, kMostOverlays> drawn;
-    glm::vec4 anchor;
-    std::array<glm::vec4, GraticuleTerms::kTerms * GraticuleTerms::kTerms> terms;
+    glm::vec4 anchor;  ///< the graticule's: column and row; 1 / reach
+    glm::vec4 shape;   ///< how many times as wide as in a window lines are; the nadir's place less the anchor
+    static constexpr std::size_t kAreas = GraticuleTerms::kMostAreas;
+    std::array<glm::vec4, kAreas> bounds;
+    std::array<glm::vec4, kAreas> borders;  ///< 1 where a side is one
+    std::array<glm::vec4, kAreas> local;    ///< centre; 1 / reach
+    std::array<glm::vec4, kAreas * GraticuleTerms::kTerms * GraticuleTerms::kTerms> terms;
 };
 
 /// Contours every so many metres: the second and third number of their entry.

@@ -13,6 +13,7 @@
 #include "viewer/ground/drape_textures.hpp"
 #include "viewer/ground/height_code.hpp"
 #include "viewer/ground_scale.hpp"
+#include "viewer/overlay_block.hpp"
 
 namespace relevo::viewer {
 
@@ -26,9 +27,13 @@ struct DrawnOverlay {
 /// Those of the settings that can be drawn: of imagery and vectors, whose file is there.
 std::vector<DrawnOverlay> drawn_overlays(const DrawSettings& settings, std::size_t drapes);
 
-/// What a terrain program needs to draw these over its layer: definitions of shaders/overlays.glsl.
+/// What a program needs to draw these over the ground, or over the sea's water, on which there are no
+/// contours: definitions of shaders/overlays.glsl.
 /// \param drapes  files that are draped
-std::string overlay_defines(const std::vector<DrawnOverlay>& overlays, std::size_t drapes);
+/// \param areas   of the graticule (OverlayDrawing::areas)
+enum class OverlaidSurface { ground, water };
+std::string overlay_defines(const std::vector<DrawnOverlay>& overlays, std::size_t drapes, int areas,
+                            OverlaidSurface surface = OverlaidSurface::ground);
 
 /// What shaders/overlays.glsl reads. It is made for the first picture that has overlays.
 class OverlayDrawing {
@@ -39,9 +44,15 @@ class OverlayDrawing {
     /// Makes what the settings' files need, and lets go of what others had. Fails where one cannot be read.
     Result<void> provide(const DrawSettings& settings);
 
-    /// Sets what a picture needs; what is draped comes in the background.
-    /// \pre provide
-    void update(const lod::View& view, const DrawSettings& settings, const Sight& sight);
+    /// Chooses intervals and lines for a view, and sets what the programs read. \pre provide
+    void arrange(const lod::View& view, const DrawSettings& settings);
+
+    /// Of the graticule that was arranged: 1, or more where several zones of UTM are in view; rounded up, so
+    /// that there are few programs.
+    int areas() const { return areas_; }
+
+    /// What a part of the picture needs of what is draped comes in the background. \pre provide
+    void update(const DrawSettings& settings, const Sight& sight);
 
     /// Waits for what is draped. \pre provide
     Result<void> complete(const DrawSettings& settings, const Sight& sight);
@@ -68,6 +79,9 @@ class OverlayDrawing {
     const std::optional<Graticule>& graticule() const { return graticule_; }
 
   private:
+    /// What the entry of a graticule of latitudes in a polar grid has.
+    glm::vec2 arrange_graticule(const lod::View& view, bool utm, double pixel_m, OverlayBlock& block);
+
     const lod::Terrain* terrain_;
     GroundScale scale_;
     HeightCode code_;
@@ -75,6 +89,7 @@ class OverlayDrawing {
     GroundData data_;
     std::map<int, DrapeTextures> drapes_;  // by file; of those that are drawn
     std::vector<int> drawn_;               // files of the last picture
+    int areas_ = 1;
     std::optional<double> contour_interval_m_;
     std::optional<Graticule> graticule_;
 };

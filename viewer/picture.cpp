@@ -64,7 +64,7 @@ Result<void> check_picture_name(const fs::path& file) {
                  fmt::format("{}: a picture's name ends in .png, .jpg or .tif", file.string())};
 }
 
-Result<void> write_picture(const Picture& picture, const fs::path& file, const std::string& view) {
+Result<void> write_picture(const Picture& picture, const fs::path& file, const PictureNotes& notes) {
     if (auto known = check_picture_name(file); !known) return known;
     const auto writer = load_writer();
     if (!writer) return writer.error();
@@ -72,9 +72,15 @@ Result<void> write_picture(const Picture& picture, const fs::path& file, const s
     fs::path unfinished = file;
     unfinished.replace_filename(
         fmt::format(".{}.{}{}", file.stem().string(), static_cast<long>(getpid()), lower_extension(file)));
+    std::vector<const char*> texts;
+    for (const auto& [key, value] : notes.texts) {
+        texts.push_back(key.c_str());
+        texts.push_back(value.c_str());
+    }
     std::string reason(512, '\0');
     const bool written = writer->write(unfinished.c_str(), picture.width, picture.height, picture.rgb.data(),
-                                       view.c_str(), reason.data(), reason.size());
+                                       notes.description.c_str(), texts.data(), notes.texts.size(),
+                                       reason.data(), reason.size());
     std::error_code failed;
     if (written) fs::rename(unfinished, file, failed);
     if (!written || failed) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "geo/result.hpp"
@@ -34,9 +35,14 @@ struct Picture {
 /// drawn.
 Result<void> check_picture_name(const std::filesystem::path& file);
 
-/// Writes PNG, JPEG or TIFF by the file's extension; the file appears when it is whole. `view` is kept in the
-/// file as its description.
+/// What is written beside the pixels. All formats keep the description, PNG also the texts (tEXt chunks).
+struct PictureNotes {
+    std::string description;
+    std::vector<std::pair<std::string, std::string>> texts = {};  ///< key, value
+};
+
+/// Writes PNG, JPEG or TIFF by the file's extension; the file appears when it is whole.
 Result<void> write_picture(const Picture& picture, const std::filesystem::path& file,
-                           const std::string& view);
+                           const PictureNotes& notes);
 
 }  // namespace relevo::viewer

@@ -38,6 +38,24 @@ bool has_ramp(Layer layer) {
     return layer == Layer::hypsometric || layer == Layer::slope || layer == Layer::aspect;
 }
 
+bool is_shaded(Layer layer) {
+    return layer == Layer::hypsometric || layer == Layer::hillshade || layer == Layer::lod;
+}
+
+const char* shading_define(Shading shading) {
+    switch (shading) {
+        case Shading::multidirectional:
+            return "#define FOUR_LIGHTS\n";
+        case Shading::oblique:
+            return "#define FOUR_LIGHTS\n#define OBLIQUE\n";
+        case Shading::combined:
+            return "#define COMBINED\n";
+        case Shading::sun:
+            break;
+    }
+    return "";
+}
+
 bool has_overlays(const DrawSettings& settings) {
     return settings.layer != Layer::plain && !settings.overlays.empty();
 }
@@ -135,6 +153,7 @@ Result<GlName> Renderer::terrain_program(const Variant& variant) {
     std::string defines = fmt::format("#define LAYER {}\n#define TOP_LEVEL {}\n",
                                       static_cast<int>(variant.layer), ground_->top());
     if (variant.wireframe) defines += "#define WIREFRAME\n";
+    defines += shading_define(variant.shading);
     if (variant.sun_fixed) defines += "#define SUN_FIXED\n";
     if (variant.sky) defines += "#define SKY\n";
     if (variant.probe) defines += "#define PROBE\n";
@@ -144,7 +163,7 @@ Result<GlName> Renderer::terrain_program(const Variant& variant) {
     const bool covered = variant.layer == Layer::terrain;
     defines += height_defines(ground_->facts());
     if (!variant.overlays.empty()) {
-        defines += overlay_defines(variant.overlays, data_.drapes.size());
+        defines += overlay_defines(variant.overlays, data_.drapes.size(), variant.areas);
         if (ground_->facts().has_sea && !variant.ocean) defines += "#define DRY_LINES\n";
     }
     if (variant.ocean) {
@@ -218,12 +237,14 @@ Result<void> Renderer::complete(const lod::View& view, const DrawSettings& setti
 
 Renderer::Variant Renderer::variant(const DrawSettings& settings) const {
     return {.layer = settings.layer,
+            .shading = is_shaded(settings.layer) ? settings.shading : Shading::sun,
             .wireframe = settings.wireframe && settings.layer != Layer::plain,
             .sun_fixed = settings.sun.kind == SunSetting::Kind::time,
             .sky = !settings.background,
             .ocean = settings.ocean.kind != OceanKind::off && ground_->facts().has_sea,
             .probe = false,
-            .overlays = drawn_overlays(settings, data_.drapes.size())};
+            .overlays = drawn_overlays(settings, data_.drapes.size()),
+            .areas = has_overlays(settings) ? overlays_->areas() : 1};
 }
 
 std::optional<bool> Renderer::is_below_ground(const geo::Geodetic& eye, double exaggeration) const {
@@ -243,7 +264,7 @@ void Renderer::prepare(const lod::View& view, const DrawSettings& settings, cons
     const bool may_be_below =
         is_below_ground(eye, settings.exaggeration).value_or(eye.h.m < 10e3 * settings.exaggeration);
     const FrameBlock block =
-        frame_block(view, *terrain_, {part.x, part.y, part.width, part.height}, settings.sun,
+        frame_block(view, *terrain_, {part.x, part.y, part.width, part.height}, settings.sun, settings.haze,
                     settings.exaggeration, base_undulation_m_, may_be_below);
     glNamedBufferSubData(frame_.name(), 0, sizeof(block), &block);
     glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, frame_.name());
@@ -253,7 +274,7 @@ void Renderer::prepare(const lod::View& view, const DrawSettings& settings, cons
         cover_->update(terrain_->frame(), {view.camera().eye.lat, view.camera().eye.lon});
     }
     if (has_overlays(settings)) {
-        overlays_->update(view, settings, sight_of(view, part, settings.layer));
+        overlays_->update(settings, sight_of(view, part, settings.layer));
     }
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);  // the ground is also seen from below
@@ -288,6 +309,7 @@ Result<DrawFigures> Renderer::probe(const lod::View& view, const DrawSettings& s
     probing.wireframe = false;  // covers what the plain ground covers
     probing.probe = true;
     probing.overlays.clear();
+    probing.areas = 1;
     const auto program = terrain_program(probing);
     if (!program) return program.error();
     prepare(view, settings, {0, 0, view.camera().width, view.camera().height});
@@ -311,7 +333,9 @@ Result<DrawFigures> Renderer::draw(const lod::View& view, const DrawSettings& se
     DrawFigures figures;
     if (auto done = provide_overlays(settings); !done) return done.error();
     const bool sky = !settings.background;
-    const auto program = terrain_program(variant(settings));
+    if (has_overlays(settings)) overlays_->arrange(view, settings);
+    const Variant drawn = variant(settings);
+    const auto program = terrain_program(drawn);
     if (!program) return program.error();
     const bool low_sun = is_low(settings.sun, view.camera().eye);
     const auto sky_program_name = sky ? sky_program(low_sun) : GlName{0};
@@ -326,8 +350,13 @@ Result<DrawFigures> Renderer::draw(const lod::View& view, const DrawSettings& se
         glBeginQuery(GL_ANY_SAMPLES_PASSED, seen_.name());
     }
     const auto start = std::chrono::steady_clock::now();
-    const auto ocean =
-        ocean_->draw(view, settings.ocean, {.sun = settings.sun, .sky = sky, .low_sun = low_sun});
+    Ocean::Look look{.sun = settings.sun, .sky = sky, .low_sun = low_sun};
+    if (has_overlays(settings)) {
+        look.overlays =
+            overlay_defines(drawn.overlays, data_.drapes.size(), drawn.areas, OverlaidSurface::water);
+        overlays_->bind();
+    }
+    const auto ocean = ocean_->draw(view, settings.ocean, look);
     if (!ocean) return ocean.error();
     figures.ocean = *ocean;
     if (measured && ocean->draw_calls > 0) {

@@ -92,8 +92,10 @@ class Renderer {
     /// What makes one terrain program differ from another.
     struct Variant {
         Layer layer;
+        Shading shading;
         bool wireframe, sun_fixed, sky, ocean, probe;
         std::vector<DrawnOverlay> overlays;
+        int areas;  ///< of the graticule
         friend auto operator<=>(const Variant&, const Variant&) = default;
     };
     Variant variant(const DrawSettings& settings) const;

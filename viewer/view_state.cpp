@@ -46,7 +46,9 @@ Result<void> set(ViewState& view, std::string_view key, std::string_view value) 
     if (key == "layer") return keep(parse_layer(value), view.layer);
     if (key == "overlays") return keep(parse_overlays(value), view.overlays);
     if (key == "wireframe") return keep(parse_switch(value), view.wireframe);
+    if (key == "shading") return keep(parse_shading(value), view.shading);
     if (key == "sun") return keep(parse_sun(value), view.sun);
+    if (key == "haze") return keep(parse_haze(value), view.haze);
     if (key == "ocean") return keep(parse_ocean(value), view.ocean.kind);
     if (key == "wind") return keep(parse_wind(value), view.ocean.wind);
     if (key == "time") return keep_number(value, view.ocean.time_s);
@@ -121,12 +123,12 @@ std::string to_string(const ViewState& view) {
     // "{}" prints the shortest digits that read back as the same double.
     return fmt::format(
         "{},{},{}/heading={}/pitch={}/roll={}/fov={}/tau={}/lod={}/metric={}/morph={}/layer={}/wireframe={}/"
-        "exaggeration={}/sun={}/ocean={}/wind={},{}/time={}/overlays={}",
+        "exaggeration={}/shading={}/sun={}/haze={}/ocean={}/wind={},{}/time={}/overlays={}",
         view.place.lat.value, view.place.lon.value, view.H.m, view.heading.value, view.pitch.value,
         view.roll.value, view.fov.value, view.tau_px, to_string(view.method), metric_name(view.metric),
         view.morph ? "on" : "off", to_string(view.layer), view.wireframe ? "on" : "off", view.exaggeration,
-        view.sun.text, to_string(view.ocean.kind), view.ocean.wind.speed_m_s, view.ocean.wind.from.value,
-        view.ocean.time_s, to_string(view.overlays));
+        to_string(view.shading), view.sun.text, to_string(view.haze), to_string(view.ocean.kind),
+        view.ocean.wind.speed_m_s, view.ocean.wind.from.value, view.ocean.time_s, to_string(view.overlays));
 }
 
 Result<ViewState> parse_view_state(std::string_view text, const ViewState& base) {

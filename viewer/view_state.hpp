@@ -7,10 +7,12 @@
 #include "geo/position.hpp"
 #include "geo/result.hpp"
 #include "lod/terrain.hpp"
+#include "viewer/haze.hpp"
 #include "viewer/height_ramp.hpp"
 #include "viewer/layer.hpp"
 #include "viewer/ocean/ocean_settings.hpp"
 #include "viewer/overlay.hpp"
+#include "viewer/shading.hpp"
 #include "viewer/sun_setting.hpp"
 
 namespace relevo::viewer {
@@ -45,8 +47,10 @@ struct ViewState {
     bool morph = false;
     double exaggeration = 1;
     Layer layer = Layer::hypsometric;
+    Shading shading = Shading::sun;
     bool wireframe = false;
     SunSetting sun;
+    Haze haze;
     OceanSettings ocean;  ///< its error is tau_px
     Overlays overlays;
     std::shared_ptr<const HeightRamp> ramp;  ///< null: the tints' own

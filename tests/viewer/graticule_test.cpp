@@ -2,13 +2,17 @@
 
 #include "viewer/graticule.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "lod/soar/pick.hpp"
+#include "tests/shared_data.hpp"
+#include "tests/viewer/read_dem.hpp"
 #include "tests/viewer/studio.hpp"
 #include "viewer/map_labels.hpp"
 
@@ -50,8 +54,9 @@ TEST(Graticule, WritesWhatItsLinesAre) {
     EXPECT_EQ(g.text(1, 0), "0\u00b000'");
     g.is_utm = true;
     g.interval = {1000, 0.5};
-    EXPECT_EQ(g.text(0, 456), "456000 E");
-    EXPECT_EQ(g.text(1, 8318001), "4159000.5 N");
+    EXPECT_EQ(g.text(0, 456, {13, true}), "13N 456000 E");
+    EXPECT_EQ(g.text(1, 8318001, {13, false}), "13S 4159000.5 N");
+    EXPECT_EQ(g.text(0, 2100, {0, true}), "UPS N 2100000 E");
 }
 
 // The shader's polynomials, in double and in float, against GeographicLib.
@@ -71,7 +76,7 @@ TEST(Graticule, ItsPolynomialsAreOffByLittle) {
         Graticule utm{.is_utm = true, .zone = geo::utm_zone(eye), .interval = glm::dvec2(1)};
         const auto terms = viewer::graticule_terms(utm, grid, eye);
         const auto exact0 = utm.lines(grid.lat_lon({terms.anchor.x, terms.anchor.y}));
-        const auto made0 = viewer::lines(terms, {terms.anchor.x, terms.anchor.y});
+        const auto made0 = *viewer::lines(terms, {terms.anchor.x, terms.anchor.y});
         for (std::size_t ring = 0; ring < 3; ++ring) {
             const auto spacing = grid.spacing({terms.anchor.x, terms.anchor.y});
             for (int i = 0; i < 40; ++i) {
@@ -80,7 +85,7 @@ TEST(Graticule, ItsPolynomialsAreOffByLittle) {
                 const geo::GridPosition place{terms.anchor.x + far * std::cos(a) / spacing.column_m,
                                               terms.anchor.y + far * std::sin(a) / spacing.row_m};
                 const auto exact = utm.lines(grid.lat_lon(place)) - exact0;
-                const auto made = viewer::lines(terms, place) - made0;
+                const auto made = *viewer::lines(terms, place) - made0;
                 worst[ring] = std::max(worst[ring], glm::distance(exact, made));
             }
         }
@@ -89,7 +94,7 @@ TEST(Graticule, ItsPolynomialsAreOffByLittle) {
         const auto linear = viewer::graticule_terms(degrees, grid, eye);
         for (int i = 0; i < 20; ++i) {
             const geo::GridPosition place{any(0, 32768), any(0, 21600)};
-            const auto off = viewer::lines(linear, place) - degrees.lines(grid.lat_lon(place));
+            const auto off = *viewer::lines(linear, place) - degrees.lines(grid.lat_lon(place));
             EXPECT_LT(to_whole(off.x), 1e-6);
             EXPECT_LT(to_whole(off.y), 1e-6);
         }
@@ -105,34 +110,56 @@ TEST(Graticule, ItsPolynomialsAreOffByLittle) {
 const viewer::DrawSettings kBright{
     .layer = viewer::Layer::hillshade, .sun = *viewer::parse_sun("0,90"), .background = kMagenta};
 
-/// Each pixel that is dark is on a line: its worst distance to one, in pixels; and how many there are.
+/// Each pixel that a graticule changes is on a line: its worst distance to one, in pixels; how many there
+/// are; and how many of them are where zones meet.
 struct Found {
     double worst_px = 0;
     int pixels = 0;
+    int on_border = 0;
 };
-Found check_lines(Studio& studio, const lod::Camera& camera, bool utm) {
-    viewer::DrawSettings with = kBright;
+Found check_lines(Studio& studio, const lod::Camera& camera, bool utm,
+                  const viewer::DrawSettings& settings = kBright) {
+    viewer::DrawSettings with = settings;
     with.overlays = {{.kind = Overlay::Kind::graticule, .utm = utm}};
-    const auto plain = studio.draw(camera, kBright);
+    const auto plain = studio.draw(camera, settings);
     const auto drawn = studio.draw(camera, with);
     const Graticule graticule = *studio.renderer().graticule();
     const lod::View view(camera);
-    const auto lines = [&](double x, double y) {
+    const auto place = [&](double x, double y) -> std::optional<geo::LatLon> {
         const auto hit = lod::pick_exactly(studio.terrain(), view.eye(), view.ray({x, y}));
-        return hit ? graticule.lines(studio.terrain().frame().lat_lon(hit->place)) : glm::dvec2(0.5);
+        if (!hit) return std::nullopt;
+        return studio.terrain().frame().lat_lon(hit->place);
+    };
+    const auto zone = [&](double x, double y) {
+        const auto at = place(x, y);
+        return at ? graticule.zone_at(*at).number : -1;
     };
     Found found;
     for (int y = 1; y + 1 < camera.height; ++y) {
         for (int x = 1; x + 1 < camera.width; ++x) {
-            if (plain.at(x, y)[0] - drawn.at(x, y)[0] < 80) continue;
-            const auto at = lines(x + 0.5, y + 0.5);
-            const auto dx = lines(x + 1.5, y + 0.5) - at;
-            const auto dy = lines(x + 0.5, y + 1.5) - at;
+            if (std::abs(plain.at(x, y)[0] - drawn.at(x, y)[0]) < 80) continue;
+            const double mx = x + 0.5;
+            const double my = y + 0.5;
+            if (!place(mx, my)) continue;  // the sea beyond the data
+            ++found.pixels;
+            const int here = zone(mx, my);
+            if (utm && graticule.every_zone &&
+                (zone(mx - 2, my) != here || zone(mx + 2, my) != here || zone(mx, my - 2) != here ||
+                 zone(mx, my + 2) != here)) {
+                ++found.on_border;
+                continue;
+            }
+            const auto lines = [&](double dx, double dy) {
+                const auto at = place(mx + dx, my + dy);
+                return at ? graticule.lines(*at) : glm::dvec2(0.5);
+            };
+            const auto at = lines(0, 0);
+            const auto dx = lines(1, 0) - at;
+            const auto dy = lines(0, 1) - at;
             double px = 1e9;
             for (int axis = 0; axis < 2; ++axis)
                 px = std::min(px, to_whole(at[axis]) / std::max(std::hypot(dx[axis], dy[axis]), 1e-12));
             found.worst_px = std::max(found.worst_px, px);
-            ++found.pixels;
         }
     }
     return found;
@@ -168,6 +195,87 @@ TEST(Graticule, IsDrawnAroundThePoles) {
     }
 }
 
+// A border goes through the picture's middle: of ordinary zones, of Norway's, which is at 3 degrees, of
+// Svalbard's at 9, and the upper end of zone 31's western half at 56 degrees, where Norway's 32 begins.
+TEST(Graticule, HasEachZonesLinesWithinItAlone) {
+    struct Trial {
+        double lat, lon;
+    };
+    for (const Trial& trial : {Trial{46, 12}, {60, 3}, {75, 9}, {56, 4.5}, {-30, -66}, {84, 20}}) {
+        const auto frame = geographic_frame(513, 513, trial.lat + 0.1, trial.lon - 0.1);
+        Studio studio(make_terrain(frame, make_heights(frame, [](int, int) { return 100.0; })));
+        const auto at = frame.grid_position({geo::Degrees{trial.lat}, geo::Degrees{trial.lon}});
+        int lines = 0;
+        for (const double metres : {500.0, 5000.0}) {
+            const auto camera =
+                above_looking_down(studio.terrain(), at.column + 0.3, at.row + 0.3, metres, 240, 180);
+            const auto found = check_lines(studio, camera, true);
+            EXPECT_LT(found.worst_px, 1.0) << trial.lat << " " << metres;
+            EXPECT_GT(found.on_border, 70) << trial.lat << " " << metres;
+            lines += found.pixels - found.on_border;
+        }
+        EXPECT_GT(lines, 150) << trial.lat;
+    }
+}
+
+// The Netherlands to the Rhine, across 6 degrees east, obliquely and from high up.
+TEST(Graticule, HasEachZonesLinesOnARealModelOfTwo) {
+    RELEVO_NEEDS_DATA("coast/netherlands_30s.nc");
+    const Dem dem = read_dem(shared_data("coast/netherlands_30s.nc"), 100, 40, 385);
+    ASSERT_LT(dem.frame.west, 6);
+    ASSERT_GT(dem.frame.west + 384 * dem.frame.step_x, 6);
+    Studio studio(make_terrain(dem.frame, dem.heights));
+    const auto at = dem.frame.grid_position({geo::Degrees{dem.frame.north - 1.8}, geo::Degrees{6}});
+    for (const double pitch : {-90.0, -40.0}) {
+        auto camera = above_looking_down(studio.terrain(), at.column, at.row, 40e3, 400, 300);
+        camera.pitch.value = pitch;
+        const auto found = check_lines(studio, camera, true);
+        EXPECT_LT(found.worst_px, pitch == -90 ? 1.0 : 1.5) << pitch;
+        EXPECT_GT(found.on_border, 200) << pitch;
+        const lod::View view(camera);
+        viewer::DrawSettings with = kBright;
+        with.overlays = {{.kind = Overlay::Kind::graticule, .utm = true}};
+        studio.draw(camera, with);
+        const auto labels = viewer::graticule_labels(studio.terrain(), view, *studio.renderer().graticule());
+        const auto has = [&](const char* text) {
+            return std::any_of(labels.begin(), labels.end(),
+                               [&](const viewer::MapLabel& label) { return label.text.find(text) == 0; });
+        };
+        std::string all;
+        for (const auto& label : labels) all += label.text + "; ";
+        EXPECT_TRUE(has("31 | 32")) << pitch << " " << all;
+        if (pitch == -90) {
+            EXPECT_TRUE(has("31N ") && has("32N ")) << all;
+        }
+    }
+}
+
+// Flat water: a ray meets it where it meets the posts of the sea.
+TEST(Graticule, LiesOnTheSeaAsOnTheGround) {
+    const auto frame = geographic_frame(257, 257, 46.2, 7.1);
+    lod::Raster<std::uint8_t> sea(257, 257);
+    for (int row = 0; row < 257; ++row) {
+        for (int column = 0; column < 200; ++column) sea.at(column, row) = 255;
+    }
+    const auto heights = make_heights(frame, [](int column, int) { return column < 200 ? 0.0 : 20.0; });
+    Studio studio(make_terrain(frame, heights, lod::ErrorMetric::bounded, {}, sea));
+    for (const auto kind : {viewer::OceanKind::radial, viewer::OceanKind::projected}) {
+        viewer::DrawSettings settings{.layer = viewer::Layer::hypsometric, .background = kMagenta};
+        settings.ocean.kind = kind;
+        settings.ocean.wind.speed_m_s = 0;
+        for (const bool utm : {false, true}) {
+            auto camera = above_looking_down(studio.terrain(), 100, 128, 1200, 400, 300);
+            const auto down = check_lines(studio, camera, utm, settings);
+            EXPECT_LT(down.worst_px, 1.0) << utm;
+            EXPECT_GT(down.pixels, 500) << utm << to_string(kind);
+            camera.pitch.value = -35;
+            const auto oblique = check_lines(studio, camera, utm, settings);
+            EXPECT_LT(oblique.worst_px, 1.5) << utm;
+            EXPECT_GT(oblique.pixels, 500) << utm;
+        }
+    }
+}
+
 TEST(GraticuleLabels, AreOnTheirLinesAtTheEdges) {
     const auto frame = geographic_frame(513, 513, 46.2, 7.1);
     Studio studio(make_terrain(frame, make_heights(frame, [](int column, int row) {
@@ -195,7 +303,9 @@ TEST(GraticuleLabels, AreOnTheirLinesAtTheEdges) {
                 std::min(to_whole(here.x) / std::abs(step.x), to_whole(here.y) / std::abs(step.y));
             EXPECT_LT(off, 3) << label.text;
             const int axis = label.text.find(utm ? 'E' : 'E') != std::string::npos ? 0 : 1;
-            EXPECT_EQ(graticule.text(axis, here[axis]), label.text);
+            const auto hit = lod::pick_exactly(studio.terrain(), view.eye(), view.ray(label.pixel));
+            EXPECT_EQ(graticule.text(axis, here[axis], graticule.zone_at(frame.lat_lon(hit->place))),
+                      label.text);
         }
     }
 }

@@ -30,7 +30,10 @@ class PlainDrape final : public Drape {
     PlainDrape(std::string name, bool lines) : name_(std::move(name)), lines_(lines) {}
     std::string name() const override { return name_; }
     int finer() const override { return 0; }
-    bool is_lines() const override { return lines_; }
+    std::optional<std::array<std::uint8_t, 3>> line_colour() const override {
+        if (!lines_) return std::nullopt;
+        return std::array<std::uint8_t, 3>{9, 9, 9};
+    }
     Result<DrapeTexels> read(const Page&) const override {
         return DrapeTexels(static_cast<std::size_t>(kPagePosts) * kPagePosts, {9, 9, 9, 255});
     }

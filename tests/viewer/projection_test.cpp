@@ -30,7 +30,7 @@ TEST(Projection, FloatsInTheShaderLoseNothingThatShows) {
              .height = 720});
         // The whole picture, and a tile of it: its window's pixels are counted from its own corner.
         const Window window = i % 2 == 0 ? Window{0, 0, 1280, 720} : Window{512, 256, 512, 512};
-        const FrameBlock block = frame_block(view, terrain, window, {}, 1, 0, false);
+        const FrameBlock block = frame_block(view, terrain, window, {}, {}, 1, 0, false);
         const glm::dvec2 wanted(window.x + any(0, window.width), window.y + any(0, window.height));
         const glm::vec3 offset(view.ray(wanted) * std::exp(any(0, 16)));  // 1 m to 9000 km
         const glm::vec4 clip = block.clip_from_offset * glm::vec4(offset, 1);

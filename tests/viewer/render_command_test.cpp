@@ -1,11 +1,18 @@
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <map>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "lod/scene/scene.hpp"
+#include "lod/soar/pick.hpp"
+#include "lod/view.hpp"
 #include "tests/app/run_program.hpp"
 #include "tests/viewer/scene_for_pictures.hpp"
+#include "viewer/numbers.hpp"
 
 namespace relevo::test {
 namespace {
@@ -162,6 +169,103 @@ TEST_F(RenderCommand, ABrokenOpenGlIsAnErrorNotAPicture) {
         EXPECT_NE(run.err.find("OpenGL"), std::string::npos) << run.err;
         EXPECT_FALSE(fs::exists(picture_));
     }
+}
+
+/// The texts of a PNG: its tEXt chunks (PNG specification, 11.3.4.3).
+std::map<std::string, std::string> png_texts(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(in)), {});
+    std::map<std::string, std::string> texts;
+    for (std::size_t at = 8; at + 8 <= bytes.size();) {
+        std::size_t length = 0;
+        for (std::size_t i = 0; i < 4; ++i) length = length << 8U | static_cast<unsigned char>(bytes[at + i]);
+        const std::string data = bytes.substr(at + 8, length);
+        const std::size_t end = data.find('\0');
+        if (bytes.substr(at + 4, 4) == "tEXt" && end != std::string::npos)
+            texts[data.substr(0, end)] = data.substr(end + 1);
+        at += 12 + length;
+    }
+    return texts;
+}
+
+TEST_F(RenderCommand, WritesWhereThePictureIsIntoIt) {
+    const auto run = render("--json --eye 0.3,-0.2,15000 --heading 370 --pitch -40 --fov 60 --sun 100,20");
+    ASSERT_EQ(run.status, 0) << run.err;
+    const auto texts = png_texts(picture_);
+    EXPECT_EQ(texts.at("crs"), "EPSG:4979");
+    EXPECT_EQ(texts.at("vertical_datum"), "WGS 84 ellipsoid");
+    EXPECT_EQ(std::stod(texts.at("eye_lat_deg")), 0.3);
+    EXPECT_EQ(std::stod(texts.at("eye_lon_deg")), -0.2);
+    EXPECT_EQ(std::stod(texts.at("eye_height_m")), 15000);
+    EXPECT_EQ(std::stod(texts.at("eye_ellipsoidal_height_m")), 15000);
+    EXPECT_EQ(std::stod(texts.at("heading_deg")), 10);
+    EXPECT_EQ(std::stod(texts.at("pitch_deg")), -40);
+    EXPECT_EQ(std::stod(texts.at("vertical_fov_deg")), 60);
+    EXPECT_EQ(texts.at("size_px"), "160x90");
+    EXPECT_EQ(std::stod(texts.at("sun_azimuth_deg")), 100);
+    EXPECT_EQ(std::stod(texts.at("sun_elevation_deg")), 20);
+    EXPECT_EQ(texts.at("scene"), "mountains.relevo");
+    EXPECT_EQ(texts.at("Description"), nlohmann::json::parse(run.out)["at"]);
+    EXPECT_EQ(texts.at("ground_upper_left"), "no data");  // beyond the scene
+    const auto up = render("--eye 0.3,-0.2,15000 --pitch 40");
+    EXPECT_EQ(up.status, 0) << up.err;
+    EXPECT_EQ(png_texts(picture_).at("ground_centre"), "sky");
+}
+
+// The places are those of rays through the full data, and their heights what `relevo measure` says.
+TEST_F(RenderCommand, WritesPlacesThatAgreeWithPickingAndMeasuring) {
+    const auto middle = nlohmann::json::parse(relevo("info " + scene_ + " --json").out)["extent"];
+    const double lat = 0.5 * (middle["south"].get<double>() + middle["north"].get<double>());
+    const double lon = 0.5 * (middle["west"].get<double>() + middle["east"].get<double>());
+    const auto run = render(fmt::format("--eye {},{},6000 --pitch -90 --fov 10", lat, lon));
+    ASSERT_EQ(run.status, 0) << run.err;
+    const auto texts = png_texts(picture_);
+    const auto scene = *lod::Scene::open(scene_);
+    const auto terrain = *lod::Terrain::open(scene, lod::ErrorMetric::bounded, {});
+    const lod::View view({.eye = {geo::Degrees{lat}, geo::Degrees{lon}, {6000}},
+                          .heading = geo::Degrees{0},
+                          .pitch = geo::Degrees{-90},
+                          .roll = geo::Degrees{0},
+                          .fov = geo::Degrees{10},
+                          .width = 160,
+                          .height = 90});
+    for (const auto& [key, pixel] : {std::pair("ground_centre", glm::dvec2(80, 45)),
+                                     {"ground_upper_left", {0, 0}},
+                                     {"ground_upper_right", {160, 0}},
+                                     {"ground_lower_right", {160, 90}},
+                                     {"ground_lower_left", {0, 90}}}) {
+        const auto numbers = viewer::parse_numbers(texts.at(key));
+        ASSERT_TRUE(numbers && numbers->size() == 3) << key << " " << texts.at(key);
+        const auto hit = lod::pick_exactly(terrain, view.eye(), view.ray(pixel));
+        ASSERT_TRUE(hit);
+        const geo::LatLon place = terrain.frame().lat_lon(hit->place);
+        EXPECT_NEAR((*numbers)[0], place.lat.value, 1e-8) << key;
+        EXPECT_NEAR((*numbers)[1], place.lon.value, 1e-8) << key;
+        // 1e-8 degrees are a millimetre.
+        const auto measured = nlohmann::json::parse(
+            relevo(fmt::format("measure {} point {:.8f},{:.8f} --json", scene_, (*numbers)[0], (*numbers)[1]))
+                .out);
+        EXPECT_NEAR((*numbers)[2], measured["H_m"].get<double>(), 0.01) << key;
+        EXPECT_EQ((*numbers)[0] > lat, pixel.y < 45 && pixel.x != 80) << key;
+    }
+}
+
+TEST_F(RenderCommand, DrawsMarksOverThePicture) {
+    for (const char* wrong : {"--marks everything", "--marks all"}) {
+        const auto run = render(wrong);
+        EXPECT_EQ(run.status, 2) << wrong;
+        EXPECT_NE(run.err.find("--marks"), std::string::npos) << run.err;
+    }
+    const auto picture_with = [&](const char* flags) {
+        const auto run =
+            relevo("render " + scene_ + " -o " + picture_ + " --size 400x300 --samples 1 " + flags);
+        EXPECT_EQ(run.status, 0) << run.err;
+        std::ifstream in(picture_, std::ios::binary);
+        return std::string((std::istreambuf_iterator<char>(in)), {});
+    };
+    const std::string none = picture_with("--marks none");
+    EXPECT_NE(none, picture_with("--marks north"));
+    EXPECT_EQ(picture_with("--marks labels"), none);  // of contours that are not there
 }
 
 }  // namespace

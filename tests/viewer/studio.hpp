@@ -32,19 +32,23 @@ inline void must(const Result<void>& result) {
 
 /// The ground of a terrain in memory.
 inline viewer::GroundData ground_of(const lod::Terrain& terrain,
-                                    std::shared_ptr<const viewer::GroundMap> map = nullptr) {
+                                    std::shared_ptr<const viewer::GroundMap> map = nullptr,
+                                    viewer::Drapes drapes = {}) {
     return {.pyramid = terrain.pyramid().get(),
             .facts = must(viewer::ground_facts(*terrain.pyramid())),
-            .map = std::move(map)};
+            .map = std::move(map),
+            .drapes = std::move(drapes)};
 }
 
 /// An off-screen context and a renderer for one terrain: draws any view of it.
 class Studio {
   public:
-    explicit Studio(lod::Terrain terrain, std::shared_ptr<const viewer::GroundMap> map = nullptr)
+    explicit Studio(lod::Terrain terrain, std::shared_ptr<const viewer::GroundMap> map = nullptr,
+                    viewer::Drapes drapes = {})
         : context_(must(viewer::OffscreenContext::create())),
           terrain_(std::make_unique<lod::Terrain>(std::move(terrain))),
-          renderer_(must(viewer::Renderer::create(*terrain_, ground_of(*terrain_, std::move(map))))),
+          renderer_(must(
+              viewer::Renderer::create(*terrain_, ground_of(*terrain_, std::move(map), std::move(drapes))))),
           mesher_(*terrain_) {}
 
     const lod::Terrain& terrain() const { return *terrain_; }

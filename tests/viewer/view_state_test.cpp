@@ -24,6 +24,8 @@ void expect_same(const ViewState& a, const ViewState& b) {
     EXPECT_EQ(a.layer, b.layer);
     EXPECT_EQ(a.wireframe, b.wireframe);
     EXPECT_EQ(a.sun.text, b.sun.text);
+    EXPECT_EQ(a.shading, b.shading);
+    EXPECT_EQ(a.haze, b.haze);
     EXPECT_EQ(a.overlays, b.overlays);
 }
 
@@ -47,6 +49,9 @@ TEST(ViewString, RoundTripsToTheLastBit) {
         view.morph = i % 5 == 0;
         view.exaggeration = any(0, 20);
         view.layer = static_cast<Layer>(i % 7);
+        view.shading = static_cast<Shading>(i % 4);
+        view.haze = {.on = i % 2 != 0, .visibility_km = i % 4 == 1 ? Haze::kClearKm : any(0.05, 1e5)};
+        if (!view.haze.on) view.haze = {.on = false};
         for (int k = 0; k < i % 4; ++k) {
             view.overlays.push_back({.kind = static_cast<Overlay::Kind>((i + k) % 4), .opacity = any(0, 1)});
             Overlay& overlay = view.overlays.back();
@@ -106,6 +111,10 @@ TEST(ViewString, RefusesWhatMakesNoSense) {
                              "0,0,0/layer=mud",
                              "0,0,0/lod=cdlod",
                              "0,0,0/sun=noon",
+                             "0,0,0/shading=disco",
+                             "0,0,0/haze=thick",
+                             "0,0,0/haze=0",
+                             "0,0,0/haze=-3",
                              "0,0,0/sun=10",
                              "0,0,0/morph=yes",
                              " 0,0,0",

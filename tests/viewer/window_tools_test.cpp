@@ -244,8 +244,8 @@ TEST_F(WindowTest, KeyFramesBecomeAPathAndRecordingIsAFlight) {
     close();
 }
 
-TEST_F(WindowTest, ALargePictureIsFourTimesTheWindow) {
-    open(kMap);
+TEST_F(WindowTest, ALargePictureIsFourTimesTheWindowWithTheMarksAskedFor) {
+    open(std::string(kMap) + " --marks north");
     press("ctrl+p");
     const fs::path large = said("picture ([^\n]+)");
     press("v");  // it goes on after that
@@ -255,6 +255,16 @@ TEST_F(WindowTest, ALargePictureIsFourTimesTheWindow) {
     if (picture.width == 0) GTEST_SKIP() << "no program here to read PNG with";
     EXPECT_EQ(picture.width, 3200);
     EXPECT_EQ(picture.height, 2400);
+    int needle = 0;
+    int elsewhere = 0;
+    for (int y = 0; y < picture.height; ++y) {
+        for (int x = 0; x < picture.width; ++x) {
+            const auto p = picture.at(x, y);
+            if (p[0] > 215 && p[1] < 90 && p[2] < 80) ++(x > 2900 && y < 300 ? needle : elsewhere);
+        }
+    }
+    EXPECT_GT(needle, 300);
+    EXPECT_EQ(elsewhere, 0);
 }
 
 TEST_F(WindowTest, MiddleDragMovesTheGroundWithTheCursor) {

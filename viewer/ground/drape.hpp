@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,8 +34,9 @@ class Drape {
     /// May be called from several threads. Fails where the file cannot be read.
     virtual Result<DrapeTexels> read(const Page& page) const = 0;
 
-    /// Lines are as wide as so many texels: never blended with coarser ones, in which they are wider.
-    virtual bool is_lines() const { return false; }
+    /// Lines and points instead of a picture: texels tell where they are (shaders/drape.glsl), red, green and
+    /// blue are all of one colour.
+    virtual std::optional<std::array<std::uint8_t, 3>> line_colour() const { return std::nullopt; }
 };
 
 using Drapes = std::vector<std::shared_ptr<const Drape>>;

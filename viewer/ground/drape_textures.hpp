@@ -27,7 +27,7 @@ class DrapeTextures {
 
     int top() const { return pages_->table().top(); }
     int finer() const { return drape_->finer(); }
-    bool is_lines() const { return drape_->is_lines(); }
+    const Drape& drape() const { return *drape_; }
 
     /// Pages loaded so far, and bytes of textures and buffers.
     std::uint64_t tiles() const { return pages_->loaded(); }

@@ -245,17 +245,26 @@ Result<GlName> Ocean::program(const Variant& variant) {
         defines += fmt::format("#define POLE {:.1f}\n", polar->plane().pole);
     std::string common;
     if (variant.low_sun) defines += "#define LOW_SUN\n";
+    defines += variant.overlays;
+    const bool overlaid = !variant.overlays.empty();
     for (const char* file : {"frame.glsl", "light.glsl", "ground.glsl", "shore.glsl", "ocean.glsl"})
         common += shader_text(file);
+    if (overlaid) common += shader_text("overlay_block.glsl");
     std::string vertex(shader_text(vertex_shader(variant.kind)));
     if (variant.map) vertex += shader_text("wave_map.glsl");
     vertex += shader_text("ocean.vert");
+    std::string fragment;
+    if (overlaid) {
+        fragment += std::string(shader_text("overlays.glsl")) + "#ifdef DRAPES\n" +
+                    std::string(shader_text("drape.glsl")) + "#endif\n";
+    }
+    fragment += shader_text("ocean.frag");
     auto made = build_program({.name = "ocean",
                                .defines = std::move(defines),
                                .common = common,
                                .vertex = vertex,
                                .geometry = {},
-                               .fragment = shader_text("ocean.frag")});
+                               .fragment = fragment});
     if (!made) return made.error();
     return programs_.emplace(variant, std::move(*made)).first->second.name();
 }
@@ -292,9 +301,10 @@ Result<OceanFigures> Ocean::draw(const lod::View& view, const OceanSettings& set
     bake_ripples(settings.time_s);
     update_undulation(sea, sea_h_m);
     const bool map = waves_seen && map_;
-    const auto open_water = program({kind, false, look.sky, look.low_sun, look.probe, map, false});
+    const auto open_water =
+        program({kind, false, look.sky, look.low_sun, look.probe, map, false, look.overlays});
     if (!open_water) return open_water.error();
-    const auto shore = program({kind, true, look.sky, look.low_sun, look.probe, map, false});
+    const auto shore = program({kind, true, look.sky, look.low_sun, look.probe, map, false, look.overlays});
     if (!shore) return shore.error();
     const OceanBlock block =
         ocean_block(sea, sea_h_m, kUndulationReach, waves_seen && !map_ ? waves_ : lod::Waves(), *ripples_,
@@ -321,7 +331,7 @@ Result<OceanFigures> Ocean::draw(const lod::View& view, const OceanSettings& set
     draw_runs(drawn.runs().shore, *shore);
     glDisable(GL_POLYGON_OFFSET_FILL);
 
-    last_.variant = {OceanKind::off, true, look.sky, look.low_sun, look.probe, false, true};
+    last_.variant = {OceanKind::off, true, look.sky, look.low_sun, look.probe, false, true, look.overlays};
     last_.shore = !drawn.runs().shore.empty();
     if (last_.shore) {
         const lod::SeaSpacing still(lod::Waves(), lod::height_px(view), 0.5, sea.radius_m);

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "geo/result.hpp"
@@ -49,6 +50,8 @@ class Ocean {
         bool low_sun = false;  ///< it mirrors a sky of dusk or night
         /// Instead of colours: place in the chart from the nadir, height of the waves, 2.
         bool probe = false;
+        /// Of what is drawn over the water (overlay_defines), which is bound; empty: nothing.
+        std::string overlays = {};
     };
     /// Draws what of the sea is in view into what is current, with depth. \pre the frame's uniforms are bound
     Result<OceanFigures> draw(const lod::View& view, const OceanSettings& settings, const Look& look);
@@ -69,6 +72,7 @@ class Ocean {
     struct Variant {
         OceanKind kind;
         bool shore, sky, low_sun, probe, map, fill;
+        std::string overlays;
         friend auto operator<=>(const Variant&, const Variant&) = default;
     };
 

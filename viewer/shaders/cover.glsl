@@ -38,6 +38,7 @@ vec2 layers_of(vec2 layers, int rung) {
 struct CoverLook {
     vec3 colour;
     vec2 slope;  // of what the data does not tell
+    float snow;  // part of it
 };
 
 // Metres from the anchor; how many of them a pixel is; all that cover_weights asks for; weights that the user gives, of
@@ -117,7 +118,7 @@ CoverLook cover_at(vec2 at, float pixel, float slope, float H, float sea, float 
     float roughness = near * (1.0 - 0.7 * seen.w);
     colour *= 1.0 + 0.9 * roughness * (grain.x - 0.5);
     slopes += slopes_of(grain, cover.grain, kGrainTile) * (0.55 * roughness);
-    return CoverLook(colour, slopes);
+    return CoverLook(colour, slopes, seen.w);
 }
 
 // What is lighter than a picture can be still shows its shape.

@@ -9,6 +9,9 @@ in Water {
     vec4 wave;
     vec4 body;
     float spacing;
+#ifdef GRATICULE
+    vec2 from_anchor;
+#endif
 }
 water;
 
@@ -37,11 +40,13 @@ vec2 ripple_slope(int layer) {
 }
 
 void main() {
-#ifdef SHORE
+#if defined(SHORE) || defined(DRAPES)
     vec2 grid = in_data(water.grid);
-    ivec2 cell = cell_at(grid);
     vec2 steps = max(abs(dFdx(water.grid)), abs(dFdy(water.grid)));
     float apart = max(steps.x, steps.y);
+#endif
+#ifdef SHORE
+    ivec2 cell = cell_at(grid);
     PagePlace place = page_place(grid, cell, apart);
 #endif
 #ifdef PROBE
@@ -105,6 +110,26 @@ void main() {
     // From below: a window of sky above the eye, around it the deep.
     if (flat_facing < 0.0 && ocean.nadir_up.w < water.wave.z)
         shown = mix(kDeep * 1.6, kZenithColour, -flat_facing * flat_facing * flat_facing) * day;
+#ifdef OVERLAYS
+    float bright = brightness(body) * day;  // without what glitters on it
+#ifdef GRATICULE
+    GraticulePlace graticule = graticule_at(water.from_anchor);
+#ifdef POLE
+    if (GRATICULE.y > 0.0)
+        graticule.value = polar_graticule_at(frame.place.xy + water.grid.yx * frame.place.zw, GRATICULE.yz);
+#endif
+    graticule.slopes = graticule_slopes(graticule.value);
+#endif
+#ifdef DRAPES
+    vec4 grid_steps = vec4(dFdx(water.grid), dFdy(water.grid));
+    // What is draped ends with the data.
+    vec2 beyond = abs(turned(water.grid) - grid);
+    float inside_data = max(beyond.x, beyond.y) > 0.0 ? 0.0 : 1.0;
+#define OVERLAY_GRID grid
+#define OVERLAY_SHARE inside_data
+#endif
+    OVERLAYS
+#endif
 #ifdef SKY
     shown = mix(shown, air_in(water.offset), water.body.a);
 #endif

@@ -13,6 +13,9 @@ out Water {
     vec4 wave;     // slope along the chart's axes, height, depth
     vec4 body;     // colour of what comes out of the water, without a bed; haze
     float spacing;
+#ifdef GRATICULE
+    vec2 from_anchor;  // in units of the graticule's reach
+#endif
 }
 water;
 
@@ -68,7 +71,8 @@ Sea sea_at(vec2 at) {
     return sea;
 }
 
-vec2 grid_at(vec3 turn) {
+// Columns and rows from the nadir.
+vec2 grid_from_nadir(vec3 turn) {
     vec3 from = ocean.nadir_up.xyz;
     vec3 to = from + turn;
 #ifdef POLE
@@ -80,13 +84,13 @@ vec2 grid_at(vec3 turn) {
     float at_middle = pow((1.0 + e * middle) / (1.0 - e * middle), 0.5 * e) / (1.0 + middle);
     float slope = at_middle * (kEccentricity2 / (1.0 - kEccentricity2 * middle * middle) - 1.0 / (1.0 + middle));
     vec2 moved = conformal * turn.xy + slope * POLE * turn.z * from.xy;
-    return ocean.grid.xy + moved.yx / ocean.grid.zw;
+    return moved.yx / ocean.grid.zw;
 #else
     float lon = atan(from.x * turn.y - from.y * turn.x, dot(from.xy, to.xy));
     float cos_from = length(from.xy);
     float cos_to = length(to.xy);
     float sine = turn.z * (cos_from + from.z * (from.z + to.z) / max(cos_from + cos_to, 1e-6));
-    return ocean.grid.xy + vec2(lon, -asin(clamp(sine, -1.0, 1.0))) * ocean.grid.zw;
+    return vec2(lon, -asin(clamp(sine, -1.0, 1.0))) * ocean.grid.zw;
 #endif
 }
 
@@ -118,7 +122,11 @@ void main() {
     water.at = here.xy;
     water.spacing = carried_spacing(here.z);
     water.up = ocean.nadir_up.xyz + sea.turn;
-    water.grid = grid_at(sea.turn);
+    vec2 from_nadir = grid_from_nadir(sea.turn);
+    water.grid = ocean.grid.xy + from_nadir;
+#ifdef GRATICULE
+    water.from_anchor = (overlays.shape.zw + from_nadir) * overlays.anchor.zw;
+#endif
     vec2 grid = in_data(water.grid);
     ivec2 cell = cell_at(grid);
     float apart = max(here.z / ocean.slopes.y, 1e-3);

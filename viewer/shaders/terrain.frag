@@ -59,6 +59,35 @@ float on_edge(vec3 barycentric) {
 }
 #endif
 
+// How light makes the shape seen (viewer/shading.hpp): 0 to 1.
+#ifdef FOUR_LIGHTS
+float lit_by(vec3 normal, vec3 sun) {
+    vec2 ahead = sun.xy;  // of the lights: the sun's own, that 90 degrees to its left, those half a turn of it beside the sun
+    vec2 left = vec2(-sun.y, sun.x);
+    mat4x2 lights = mat4x2(ahead, left, (ahead - left) * 0.70710678, (ahead + left) * 0.70710678);
+    // cos^2 or sin^2 of the angle between the fall of the ground and each light: of all four 2 together, but for flat ground.
+#ifdef OBLIQUE
+    vec2 fall = vec2(-normal.y, normal.x);
+#else
+    vec2 fall = normal.xy;
+#endif
+    vec4 along = fall * lights;
+    vec4 weights = along * along / max(dot(fall, fall) * dot(ahead, ahead), 1e-12);
+    weights += 0.5 * max(1.0 - 0.5 * dot(weights, vec4(1.0)), 0.0);
+    return 0.5 * dot(weights, max(normal.xy * lights + normal.z * sun.z, 0.0));
+}
+#elif defined(COMBINED)
+float lit_by(vec3 normal, vec3 sun) {
+    float slope = acos(clamp(normal.z, 0.0, 1.0));
+    return max(1.0 - acos(clamp(dot(normal, sun), -1.0, 1.0)) * slope / 2.4674011, 0.0);
+}
+#else
+float lit_by(vec3 normal, vec3 sun) { return max(dot(normal, sun), 0.0); }
+#endif
+
+#define OVERLAY_GRID surface.grid
+#define OVERLAY_SHARE 1.0
+
 void main() {
     // All that needs the neighbours' values comes before the discard.
     vec2 x = abs(dFdx(surface.grid));
@@ -79,13 +108,16 @@ void main() {
     float height = here.z / max(here.a, 1e-3);
     float height_slope = slope_of(height);
 #endif
+#ifdef DRAPES
+    vec4 grid_steps = vec4(dFdx(surface.grid), dFdy(surface.grid));
+#endif
 #ifdef GRATICULE
-    vec2 graticule = graticule_at(surface.from_anchor);
+    GraticulePlace graticule = graticule_at(surface.from_anchor);
 #ifdef POLE
     if (GRATICULE.y > 0.0)
-        graticule = polar_graticule_at(frame.place.xy + surface.grid.yx * frame.place.zw, GRATICULE.yz);
+        graticule.value = polar_graticule_at(frame.place.xy + surface.grid.yx * frame.place.zw, GRATICULE.yz);
 #endif
-    vec2 graticule_slope = graticule_slopes(graticule);
+    graticule.slopes = graticule_slopes(graticule.value);
 #endif
 #ifdef VOIDS
     if (!is_whole(cell, min(max(x.x, x.y), max(y.x, y.y)))) discard;
@@ -103,8 +135,13 @@ void main() {
     vec3 sun = frame.sun.xyz;
     float day = dimmed(frame.sun.w);
 #endif
-    float lit = max(dot(normal, sun), 0.0);
+    float lit = lit_by(normal, sun);
+#ifdef COMBINED
+    lit *= day;
+    float relief = 0.28 * day + 0.69 * lit;  // flat ground is as light as under one light
+#else
     float relief = (0.32 + 0.12 * normal.z) * day + 0.75 * lit;
+#endif
 
 #if LAYER == 0  // hypsometric
 #ifdef TINTED_SEA
@@ -172,7 +209,11 @@ void main() {
 #else
     const float dry = 1.0;
 #endif
+#ifdef COVER
+    float bright = 0.2 + 0.6 * ground.snow * day;
+#else
     float bright = brightness(shown);
+#endif
     OVERLAYS
 #endif
     // The ground from below. Only where the eye can be there: seen from above, a sliver on a ridge may turn its back by

@@ -61,6 +61,10 @@ void drawing(ViewState& view) {
         if (ImGui::RadioButton(kLayers[i].second, view.layer == kLayers[i].first))
             view.layer = kLayers[i].first;
     }
+    auto shading = static_cast<int>(view.shading);
+    if (ImGui::Combo("light", &shading, "one sun\0multidirectional\0oblique\0combined\0"))
+        view.shading = static_cast<Shading>(shading);
+    hint("Of tints, hillshade and levels: from the sun, from four sides, or with the slope");
     ImGui::Checkbox("mesh", &view.wireframe);
     ImGui::SameLine();
     ImGui::Checkbox("morph", &view.morph);
@@ -72,9 +76,30 @@ void drawing(ViewState& view) {
     if (ImGui::SliderFloat("heights x", &times, 0.25f, 16, "%.3g", ImGuiSliderFlags_Logarithmic))
         view.exaggeration = static_cast<double>(times);
     hint("Of the picture alone: what is measured stays true.");
+    ImGui::Checkbox("haze", &view.haze.on);
+    if (view.haze.on) {
+        auto km = static_cast<float>(view.haze.visibility_km);
+        ImGui::SameLine();
+        if (ImGui::SliderFloat("##visibility", &km, 1, 2000, "seen %.4g km far",
+                               ImGuiSliderFlags_Logarithmic))
+            view.haze.visibility_km = std::max(static_cast<double>(km), 0.05);
+        hint("How far a dark thing is just seen at the sea's level");
+    }
     bool ocean = view.ocean.kind != OceanKind::off;
     if (ImGui::Checkbox("sea with waves", &ocean))
         view.ocean.kind = ocean ? OceanKind::automatic : OceanKind::off;
+}
+
+void mark_choices(Marks& marks) {
+    ImGui::Separator();
+    ImGui::TextDisabled("On large pictures (Ctrl P)");
+    ImGui::Checkbox("legend", &marks.legend);
+    ImGui::SameLine();
+    ImGui::Checkbox("scale", &marks.scale);
+    ImGui::SameLine();
+    ImGui::Checkbox("north", &marks.north);
+    ImGui::SameLine();
+    ImGui::Checkbox("labels", &marks.labels);
 }
 
 }  // namespace
@@ -188,6 +213,7 @@ void Panels::side_panel(Desk& desk, ViewState& view, const HudContent& content, 
             drawing(view);
             sun(desk.ui(), view);
             draw_layer_list(view.overlays, layers, chosen_overlay, wishes);
+            mark_choices(picture_marks);
             ImGui::EndTabItem();
         }
         const bool measured =

@@ -9,6 +9,7 @@
 #include "viewer/flight_path.hpp"
 #include "viewer/ground_layers.hpp"
 #include "viewer/layer_files.hpp"
+#include "viewer/marks.hpp"
 #include "viewer/measuring.hpp"
 #include "viewer/ui/desk.hpp"
 #include "viewer/ui/file_chooser.hpp"
@@ -58,6 +59,7 @@ class Panels {
 
     bool keys_shown = false;
     std::size_t chosen_overlay = 0;  ///< which one keys move
+    Marks picture_marks;  ///< of large pictures
 
   private:
     Box side_box(const Desk& desk) const;

@@ -2,51 +2,15 @@
 #include "viewer/ui/ui.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <string>
 
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
+#include "viewer/ui/font.hpp"
+
 namespace relevo::viewer {
-
-namespace {
-
-constexpr float kLetterPx = 15;
-
-/// A TrueType file with the letters that we need, where distributions put DejaVu; $RELEVO_FONT comes first.
-/// Empty where there is none: ImGui's own small font then serves.
-std::string font_file() {
-    if (const char* chosen = std::getenv("RELEVO_FONT");
-        chosen != nullptr && std::filesystem::exists(chosen)) {
-        return chosen;
-    }
-    for (const char* file :
-         {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/dejavu/DejaVuSans.ttf",
-          "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf",
-          "/usr/local/share/fonts/DejaVuSans.ttf"}) {
-        if (std::filesystem::exists(file)) return file;
-    }
-    return {};
-}
-
-void load_font(ImGuiIO& io, float scale) {
-    static constexpr ImWchar kLetters[] = {0x20, 0xff, 0};  // Latin-1: with the degree sign
-    const std::string file = font_file();
-    if (!file.empty() &&
-        io.Fonts->AddFontFromFileTTF(file.c_str(), std::round(kLetterPx * scale), nullptr, kLetters)) {
-        return;
-    }
-    ImFontConfig own;
-    own.SizePixels = std::round(13 * scale);
-    io.Fonts->AddFontDefault(&own);
-}
-
-}  // namespace
 
 Ui::Ui(std::unique_ptr<int, Release> started) : started_(std::move(started)) {}
 
@@ -80,7 +44,7 @@ Result<Ui> Ui::create(const Window& window) {
 void Ui::set_look(double scale, bool light) {
     ImGuiIO& io = ImGui::GetIO();
     io.Fonts->Clear();
-    load_font(io, static_cast<float>(scale));
+    add_font(*io.Fonts, static_cast<float>(scale));
     if (begun_) {  // else the first frame makes it
         ImGui_ImplOpenGL3_DestroyFontsTexture();
         ImGui_ImplOpenGL3_CreateFontsTexture();
