@@ -113,8 +113,8 @@ Result<std::shared_ptr<const viewer::Drape>> open_lines(const std::string& file,
         {{214, 20, 110}, {0, 110, 200}, {214, 92, 0}, {110, 40, 170}}};
     auto lines = ingest::VectorFile::open(file, frame);
     if (!lines) return lines.error();
-    return std::shared_ptr<const viewer::Drape>(
-        std::make_shared<VectorDrape>(name_of(file), *std::move(lines), frame, kColours[colour % kColours.size()]));
+    return std::shared_ptr<const viewer::Drape>(std::make_shared<VectorDrape>(
+        name_of(file), *std::move(lines), frame, kColours[colour % kColours.size()]));
 }
 
 viewer::LayerFiles layer_files() {

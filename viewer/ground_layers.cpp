@@ -50,8 +50,9 @@ std::optional<Result<std::string>> GroundLayers::take_opened() {
 }
 
 void GroundLayers::add(std::shared_ptr<const Drape> drape) {
-    put_in_place(overlays_, {.kind = drape->line_colour().has_value() ? Overlay::Kind::vectors : Overlay::Kind::imagery,
-                             .file = static_cast<int>(ground_.drapes.size())});
+    put_in_place(overlays_,
+                 {.kind = drape->line_colour().has_value() ? Overlay::Kind::vectors : Overlay::Kind::imagery,
+                  .file = static_cast<int>(ground_.drapes.size())});
     ground_.drapes.push_back(std::move(drape));
     changed_ = true;
 }

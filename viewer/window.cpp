@@ -2,6 +2,7 @@
 #include "viewer/window.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include <GLFW/glfw3.h>
 #include <epoxy/gl.h>
@@ -36,8 +37,9 @@ Error no_window(const std::string& why) {
 struct Window::State {
     GLFWwindow* window = nullptr;
     bool typing = false;
-    Input now;       // what poll() gave
-    Input gathered;  // what the callbacks have seen since
+    std::set<int> commanding;  // keys that went down with Control, whose release may come after its own
+    Input now;                 // what poll() gave
+    Input gathered;            // what the callbacks have seen since
 
     struct Press {
         bool down = false;
@@ -125,9 +127,11 @@ Result<Window> Window::create(int width, int height, const std::string& title) {
     glfwSetKeyCallback(state->window, [](GLFWwindow* window, int key, int, int action, int modifiers) {
         auto* to = static_cast<State*>(glfwGetWindowUserPointer(window));
         to->gathered.anything = true;
+        if (action == GLFW_RELEASE) to->commanding.erase(key);
         if (action != GLFW_PRESS) return;
-        to->gathered.pressed.push_back(
-            {key, (modifiers & GLFW_MOD_CONTROL) != 0, (modifiers & GLFW_MOD_SHIFT) != 0});
+        const bool control = (modifiers & GLFW_MOD_CONTROL) != 0;
+        if (control) to->commanding.insert(key);
+        to->gathered.pressed.push_back({key, control, (modifiers & GLFW_MOD_SHIFT) != 0});
     });
     glfwSetCursorPosCallback(state->window, [](GLFWwindow* window, double x, double y) {
         auto* to = static_cast<State*>(glfwGetWindowUserPointer(window));
@@ -203,7 +207,8 @@ const Input& Window::poll(double wait_s) {
 }
 
 bool Window::held(int key) const {
-    return !state_->typing && glfwGetKey(state_->window, key) == GLFW_PRESS;
+    return !state_->typing && !state_->commanding.contains(key) &&
+           glfwGetKey(state_->window, key) == GLFW_PRESS;
 }
 
 void Window::set_typing(bool typing) {

@@ -28,6 +28,7 @@ class Window {
 
     /// Takes in what happened; with a wait, sleeps until something does or the time is over. Seconds.
     const Input& poll(double wait_s);
+    /// Is a key down, and was so without Control? With it keys are commands.
     bool held(int key) const;
     /// While something is being typed in no key counts as held.
     void set_typing(bool typing);

@@ -119,7 +119,7 @@ TEST_F(WindowLayersTest, APictureIsTakenAwayInThePanel) {
     press("Tab");
     wait_ms(700);
     EXPECT_NE(last_view().find("/overlays=imagery:0:1"), std::string::npos);
-    point_at(783, 282);  // the last button of its row, in letters of 15 pixels
+    point_at(781, 332);  // the last button of its row, in letters of 15 pixels
     wait_ms(200);
     desktop_.xdotool("click 1");
     wait_ms(700);

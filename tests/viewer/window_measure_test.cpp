@@ -106,6 +106,18 @@ TEST_F(WindowMeasureTest, AnyVertexIsDeletedAndOneIsDraggedOutOfASide) {
     close();
 }
 
+// S flies backwards: with Control it did so for a frame.
+TEST_F(WindowMeasureTest, CommandsDoNotMoveTheEye) {
+    open(std::string("--at ") + kAt);
+    press("F2");
+    click(300, 200);
+    saved();
+    saved();
+    press("v");
+    said("view 35.982222,138.017778,6000/");
+    close();
+}
+
 TEST_F(WindowMeasureTest, AnAreasPlaneIsChosenInThePanel) {
     open(std::string("--at ") + kAt);
     press("F5");

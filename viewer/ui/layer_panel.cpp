@@ -117,9 +117,9 @@ void draw_layer_list(Overlays& overlays, GroundLayers& layers, std::size_t& chos
         if (find(overlays, kind) == nullptr) off_row(overlays, {.kind = kind}, layers, asked);
     }
     for (std::size_t file = 0; file < layers.drapes().size(); ++file) {
-        const Overlay off{
-            .kind = layers.drapes()[file]->line_colour().has_value() ? Overlay::Kind::vectors : Overlay::Kind::imagery,
-            .file = static_cast<int>(file)};
+        const Overlay off{.kind = layers.drapes()[file]->line_colour().has_value() ? Overlay::Kind::vectors
+                                                                                   : Overlay::Kind::imagery,
+                          .file = static_cast<int>(file)};
         ImGui::PushID(static_cast<int>(file));
         if (index_of_file(overlays, off.file) == overlays.size()) off_row(overlays, off, layers, asked);
         ImGui::PopID();

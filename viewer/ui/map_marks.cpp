@@ -61,8 +61,7 @@ void map_labels(ImDrawList& list, const std::vector<MapLabel>& labels, float uni
         });
         const float rise = std::abs(std::sin(static_cast<float>(map_label.angle) * 0.0174533f));
         const float half_height = 0.6f * size.y + rise * reach;
-        if (touches ||
-            covered.touches({at.x - reach, at.y - half_height, at.x + reach, at.y + half_height}))
+        if (touches || covered.touches({at.x - reach, at.y - half_height, at.x + reach, at.y + half_height}))
             continue;
         drawn.emplace_back(at, reach);
         rimmed_text(list, at, map_label.angle, map_label.text);
@@ -118,8 +117,7 @@ void compass(ImDrawList& list, geo::Degrees up, const MarkMargins& margins, Cove
     draw_mark_text(list, at(0, 0.78f), "N");
     draw_mark_text(list, {middle.x, middle.y + radius + 0.8f * letter},
                    fmt::format("{:03.0f}\u00b0", std::fmod(std::round(up.value), 360)));
-    covered.add(
-        {middle.x - radius, middle.y - radius, middle.x + radius, middle.y + radius + 1.5f * letter});
+    covered.add({middle.x - radius, middle.y - radius, middle.x + radius, middle.y + radius + 1.5f * letter});
 }
 
 void bar(ImDrawList& list, const ScaleBar& scale, float units_per_px, const MarkMargins& margins,
@@ -137,8 +135,8 @@ void bar(ImDrawList& list, const ScaleBar& scale, float units_per_px, const Mark
     const float half = 0.5f * std::max(length, text_width);
     const ImVec2 middle(size.x - margins.right - 1.5f * letter - half,
                         size.y - margins.bottom - 2.2f * letter);
-    const Box box{middle.x - half - 0.7f * letter, middle.y - 1.6f * letter,
-                  middle.x + half + 0.7f * letter, middle.y + 1.6f * letter};
+    const Box box{middle.x - half - 0.7f * letter, middle.y - 1.6f * letter, middle.x + half + 0.7f * letter,
+                  middle.y + 1.6f * letter};
     covered.add(box);
     plate(list, box);
     const float left = middle.x - 0.5f * length;

@@ -59,7 +59,7 @@ class Panels {
 
     bool keys_shown = false;
     std::size_t chosen_overlay = 0;  ///< which one keys move
-    Marks picture_marks;  ///< of large pictures
+    Marks picture_marks;             ///< of large pictures
 
   private:
     Box side_box(const Desk& desk) const;
