@@ -261,14 +261,14 @@ class Flight {
     Result<void> draw(const lod::View& view) {
         const auto start = Clock::now();
         if (flight_.view.tau_px != finest_) budget_.set_finest(finest_ = flight_.view.tau_px);
-        const lod::Mesh& mesh = mesher_.mesh(view, flight_.view, budget_);
-        flight_.mesh = &mesh;
+        const DrawnGround ground = mesher_.ground(view, flight_.view, budget_);
+        flight_.mesh = [this, view, ground]() -> const lod::Mesh& { return mesher_.mesh(view, ground); };
         flight_.drawn.emplace(view);
         figures_.tau_reached_px =
             flight_.view.method == Method::full ? flight_.view.tau_px : budget_.tau_px();
         refine_times_.add(ms_since(start));
-        figures_.triangles = mesh.triangles();
-        renderer_->upload(mesh);
+        figures_.triangles = triangles(ground);
+        renderer_->upload(ground);
         const auto drawn = renderer_->draw(view, draw_settings(flight_.view), *target_);
         if (!drawn) return drawn.error();
         figures_.draw_calls = drawn->draw_calls;

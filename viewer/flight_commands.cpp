@@ -121,7 +121,7 @@ void obey(FlightState& flight, const Wish& wish, int width, int height) {
             break;
         case Command::measure_error:
             if (flight.drawn)
-                flight.error.begin(flight.terrain, *flight.drawn, *flight.mesh, view.exaggeration,
+                flight.error.begin(flight.terrain, *flight.drawn, flight.mesh(), view.exaggeration,
                                    view.tau_px);
             desk.show_panel(true);
             break;

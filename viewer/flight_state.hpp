@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -47,7 +48,7 @@ struct FlightState {
     bool screenshot_wanted = false;  ///< of this frame
 
     // Of the last frame.
-    const lod::Mesh* mesh = nullptr;
+    std::function<const lod::Mesh&()> mesh;  ///< made when it is asked for
     std::optional<lod::View> drawn;
     std::optional<lod::PointMeasurement> cursor;  ///< on the ground
     std::optional<double> middle_distance_m;      ///< to the ground in the middle of the picture

@@ -81,11 +81,11 @@ Result<void> LstrViewer::update(const lod::Camera& camera, double elapsed_s) {
     state.read_ahead(view, elapsed_s);
     lod::RefineOptions refine = state.options.refine;
     refine.exaggeration = state.options.look.exaggeration;
-    const auto mesh =
-        state.options.waits ? state.mesher->whole_mesh(view, refine) : state.mesher->mesh(view, refine);
-    if (!mesh) return mesh.error();
-    state.renderer->upload(**mesh);
-    state.triangles = (*mesh)->triangles();
+    const auto picture =
+        state.options.waits ? state.mesher->whole_picture(view, refine) : state.mesher->picture(view, refine);
+    if (!picture) return picture.error();
+    state.renderer->upload(*picture);
+    state.triangles = picture->triangles;
     state.view = view;
     return {};
 }
@@ -110,7 +110,8 @@ lod::RefineOptions& LstrViewer::refine() {
     return state_->options.refine;
 }
 LstrViewer::Figures LstrViewer::figures() const {
-    return {state_->triangles, state_->mesher->figures(), state_->renderer->pending()};
+    return {state_->triangles, state_->mesher->figures(), state_->renderer->node_figures(),
+            state_->renderer->pending()};
 }
 const lod::Scene& LstrViewer::scene() const {
     return state_->scene;

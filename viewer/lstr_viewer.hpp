@@ -51,7 +51,7 @@ class LstrViewer {
     LstrViewer& operator=(LstrViewer&&) noexcept;
     ~LstrViewer();
 
-    /// Takes in what has been read, makes the mesh of a view, and has what is missing and what is near read
+    /// Takes in what has been read, finds the nodes of a view, and has what is missing and what is near read
     /// in the background. \param elapsed_s  since the last call: a fast eye has more read ahead of it. 0: it
     /// has not flown here
     Result<void> update(const lod::Camera& camera, double elapsed_s);
@@ -65,10 +65,11 @@ class LstrViewer {
     DrawSettings& look();
     lod::RefineOptions& refine();
 
-    /// Triangles of the last update's mesh, and what is in memory.
+    /// Triangles of the last update, and what is in memory.
     struct Figures {
         std::uint64_t triangles = 0;
         lod::ChunkMesher::Figures chunks;
+        NodeBuffers::Figures in_graphics_memory;
         std::size_t pending_pages = 0;  ///< of the ground's textures
     };
     Figures figures() const;

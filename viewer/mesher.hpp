@@ -9,12 +9,13 @@
 #include "lod/lstr/chunk_mesher.hpp"
 #include "lod/soar/full_mesh.hpp"
 #include "lod/soar/refiner.hpp"
+#include "viewer/drawn_ground.hpp"
 #include "viewer/frame_budget.hpp"
 #include "viewer/view_state.hpp"
 
 namespace relevo::viewer {
 
-/// Makes the mesh that a view asks for, by the method that it asks for.
+/// Makes what a view's ground is drawn with, by the method that it asks for.
 class Mesher {
   public:
     /// The terrain must outlive the mesher.
@@ -22,7 +23,7 @@ class Mesher {
         : terrain_(terrain), chunk_options_(chunks), refiner_(terrain) {}
 
     /// Of what is in memory; what is missing is asked for. Valid until the next call.
-    const lod::Mesh& mesh(const lod::View& view, const ViewState& state) {
+    DrawnGround ground(const lod::View& view, const ViewState& state) {
         if (state.method == Method::full) return full(view, state);
         if (state.method == Method::lstr) return chunks(view, state);
         terrain_.tiles().start_frame();
@@ -31,22 +32,33 @@ class Mesher {
     }
 
     /// As fine as the budget allows; it is to be told what the frame cost.
-    const lod::Mesh& mesh(const lod::View& view, ViewState state, FrameBudget& budget) {
+    DrawnGround ground(const lod::View& view, ViewState state, FrameBudget& budget) {
         if (state.method == Method::full) return full(view, state);
         state.tau_px = budget.tau_px();
-        const lod::Mesh& first = mesh(view, state);
-        if (!budget.coarsen(first.triangles())) return first;
+        const DrawnGround first = ground(view, state);
+        if (!budget.coarsen(triangles(first))) return first;
         state.tau_px = budget.tau_px();
-        return state.method == Method::lstr ? chunks(view, state) : refiner_.refine(view, options(state));
+        if (state.method == Method::lstr) return chunks(view, state);
+        return refiner_.refine(view, options(state));
     }
 
     /// Of all that the view asks for; waits for what is missing.
-    Result<const lod::Mesh*> whole_mesh(const lod::View& view, const ViewState& state) {
-        if (state.method == Method::full) return &full(view, state);
+    Result<DrawnGround> whole_ground(const lod::View& view, const ViewState& state) {
+        if (state.method == Method::full) return DrawnGround(full(view, state));
         if (state.method == Method::lstr) {
-            return chunk_mesher().whole_mesh(view, options(state));
+            const auto nodes = chunk_mesher().whole_picture(view, options(state));
+            if (!nodes) return nodes.error();
+            return DrawnGround(*nodes);
         }
-        return refiner_.refine_whole(view, options(state));
+        const auto mesh = refiner_.refine_whole(view, options(state));
+        if (!mesh) return mesh.error();
+        return DrawnGround(**mesh);
+    }
+
+    /// What was made last as one mesh. \param view  that it was made for
+    const lod::Mesh& mesh(const lod::View& view, const DrawnGround& ground) {
+        const auto* nodes = std::get_if<lod::ChunkPicture>(&ground);
+        return nodes != nullptr ? chunk_mesher().assemble(view, *nodes) : std::get<0>(ground).get();
     }
 
     /// Of the nodes of the LSTR; none where it has not drawn.
@@ -88,8 +100,8 @@ class Mesher {
         return *chunk_mesher_;
     }
     /// Nothing where the root cannot be read.
-    const lod::Mesh& chunks(const lod::View& view, const ViewState& state) {
-        if (const auto made = chunk_mesher().mesh(view, options(state))) return **made;
+    DrawnGround chunks(const lod::View& view, const ViewState& state) {
+        if (const auto made = chunk_mesher().picture(view, options(state))) return *made;
         full_.clear();
         return full_;
     }

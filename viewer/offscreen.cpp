@@ -156,27 +156,27 @@ Result<FinishedPicture> OffscreenPainter::draw(const ViewState& asked, const Pic
         std::optional<Error> failure;
         state.tau_px = tau_for_triangles(*request.max_triangles, asked.tau_px, [&](double tau_px) {
             state.tau_px = tau_px;
-            const auto tried = mesher_->whole_mesh(view, state);
+            const auto tried = mesher_->whole_ground(view, state);
             if (!tried) failure = tried.error();
-            return tried ? (*tried)->triangles() : 0;
+            return tried ? triangles(*tried) : 0;
         });
         if (failure) return *failure;
     }
     figures.tau_reached_px = state.tau_px;
-    const auto first = mesher_->whole_mesh(view, state);
+    const auto first = mesher_->whole_ground(view, state);
     if (!first) return first.error();
     if (request.timed) {
-        renderer_.upload(**first);
+        renderer_.upload(*first);
         if (auto done = renderer_.complete(view, settings, part(0, 0)); !done) return done.error();
         if (auto done = renderer_.draw(view, settings, *target, {}, false); !done) return done.error();
         gl_finish();
     }
 
     const Stopwatch frame;
-    const lod::Mesh& mesh = mesher_->mesh(view, state);  // all that it needs is there
+    const DrawnGround ground = mesher_->ground(view, state);  // all that it needs is there
     figures.refine_ms = frame.ms();
-    figures.triangles = mesh.triangles();
-    renderer_.upload(mesh);
+    figures.triangles = triangles(ground);
+    renderer_.upload(ground);
     bool ground_seen = false;
     double loading_ms = 0;
     for (int y = 0; y < request.height; y += target->height()) {
@@ -202,7 +202,8 @@ Result<FinishedPicture> OffscreenPainter::draw(const ViewState& asked, const Pic
         return Error{ErrorKind::internal, "the ground is in view, but not one of its pixels was drawn (" +
                                               figures.gl + "); nothing was written"};
     }
-    if (request.measure_error) figures.error = lod::measure_error(terrain_, view, mesh, state.exaggeration);
+    if (request.measure_error)
+        figures.error = lod::measure_error(terrain_, view, mesher_->mesh(view, ground), state.exaggeration);
     return made;
 }
 

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <variant>
 
 #include <epoxy/gl.h>
 #include <fmt/format.h>
@@ -152,6 +153,7 @@ Result<GlName> Renderer::terrain_program(const Variant& variant) {
     }
     std::string defines = fmt::format("#define LAYER {}\n#define TOP_LEVEL {}\n",
                                       static_cast<int>(variant.layer), ground_->top());
+    if (variant.nodes) defines += "#define NODES\n";
     if (variant.wireframe) defines += "#define WIREFRAME\n";
     defines += shading_define(variant.shading);
     if (variant.sun_fixed) defines += "#define SUN_FIXED\n";
@@ -201,7 +203,15 @@ Result<GlName> Renderer::terrain_program(const Variant& variant) {
     return terrain_programs_.emplace(variant, std::move(*program)).first->second.name();
 }
 
-void Renderer::upload(const lod::Mesh& mesh) {
+void Renderer::upload(const DrawnGround& ground) {
+    const auto* nodes = std::get_if<lod::ChunkPicture>(&ground);
+    draws_nodes_ = nodes != nullptr;
+    if (nodes != nullptr) {
+        if (!nodes_) nodes_.emplace();
+        nodes_->upload(*nodes);
+        return;
+    }
+    const lod::Mesh& mesh = std::get<0>(ground);
     stream(vertices_, vertex_bytes_, mesh.vertices.data(), mesh.vertices.size() * sizeof(lod::MeshVertex));
     stream(indices_, index_bytes_, mesh.indices.data(), mesh.indices.size() * sizeof(std::uint32_t));
     index_count_ = static_cast<int>(mesh.indices.size());
@@ -238,6 +248,7 @@ Result<void> Renderer::complete(const lod::View& view, const DrawSettings& setti
 Renderer::Variant Renderer::variant(const DrawSettings& settings) const {
     return {.layer = settings.layer,
             .shading = is_shaded(settings.layer) ? settings.shading : Shading::sun,
+            .nodes = draws_nodes_,
             .wireframe = settings.wireframe && settings.layer != Layer::plain,
             .sun_fixed = settings.sun.kind == SunSetting::Kind::time,
             .sky = !settings.background,
@@ -282,18 +293,25 @@ void Renderer::prepare(const lod::View& view, const DrawSettings& settings, cons
     glDepthFunc(GL_GREATER);
 }
 
-void Renderer::draw_terrain(GlName program, const DrawSettings& settings) {
+int Renderer::draw_terrain(GlName program, const lod::View& view, const DrawSettings& settings) {
+    if (draws_nodes_ ? nodes_->empty() : index_count_ == 0) return 0;
     glUseProgram(program);
-    glBindVertexArray(vertex_array_.name());
     ground_->bind();
     if (settings.layer == Layer::terrain) cover_->bind();
     if (has_ramp(settings.layer)) glBindTextureUnit(kRampUnit, ramp(settings));
     if (has_overlays(settings)) overlays_->bind();
     glEnable(GL_CLIP_DISTANCE0);
     glEnable(GL_CLIP_DISTANCE1);
-    glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
+    int calls = 1;
+    if (draws_nodes_) {
+        calls = nodes_->draw(view);
+    } else {
+        glBindVertexArray(vertex_array_.name());
+        glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
+    }
     glDisable(GL_CLIP_DISTANCE0);
     glDisable(GL_CLIP_DISTANCE1);
+    return calls;
 }
 
 Result<int> Renderer::fill(const lod::View& view, const DrawSettings& settings) {
@@ -317,10 +335,7 @@ Result<DrawFigures> Renderer::probe(const lod::View& view, const DrawSettings& s
     if (!ocean) return ocean.error();
     figures.ocean = *ocean;
     figures.draw_calls = ocean->draw_calls;
-    if (index_count_ > 0) {
-        draw_terrain(*program, settings);
-        ++figures.draw_calls;
-    }
+    figures.draw_calls += draw_terrain(*program, view, settings);
     if (const auto filled = fill(view, settings); !filled) return filled.error();
     glBindVertexArray(0);
     glUseProgram(0);
@@ -365,10 +380,7 @@ Result<DrawFigures> Renderer::draw(const lod::View& view, const DrawSettings& se
         figures.ocean.draw_ms = took.count() - ocean->arrange_ms;
     }
     figures.draw_calls += ocean->draw_calls;
-    if (index_count_ > 0) {
-        draw_terrain(*program, settings);
-        ++figures.draw_calls;
-    }
+    figures.draw_calls += draw_terrain(*program, view, settings);
     const auto filled = fill(view, settings);
     if (!filled) return filled.error();
     figures.draw_calls += *filled;

@@ -11,9 +11,11 @@
 #include "lod/terrain.hpp"
 #include "lod/view.hpp"
 #include "viewer/draw_settings.hpp"
+#include "viewer/drawn_ground.hpp"
 #include "viewer/gl_object.hpp"
 #include "viewer/ground/ground_cover.hpp"
 #include "viewer/ground/ground_textures.hpp"
+#include "viewer/ground/node_buffers.hpp"
 #include "viewer/layer.hpp"
 #include "viewer/ocean/ocean.hpp"
 #include "viewer/overlay_drawing.hpp"
@@ -42,8 +44,8 @@ class Renderer {
     /// the coarsest of the ground cannot be read.
     static Result<Renderer> create(const lod::Terrain& terrain, const GroundData& ground);
 
-    /// Hands a mesh to OpenGL; it is drawn until the next one comes.
-    void upload(const lod::Mesh& mesh);
+    /// Hands the ground's shape to OpenGL; it is drawn until the next one comes.
+    void upload(const DrawnGround& ground);
 
     /// Waits until all of the ground's texels that a picture's part wants are there. Fails where some are
     /// damaged.
@@ -56,7 +58,7 @@ class Renderer {
     /// Is there room for all of the ground's texels that a picture's part wants? Else it is drawn coarser.
     bool ground_fits(const lod::View& view, const DrawSettings& settings, const PicturePart& part);
 
-    /// Draws the uploaded mesh, which must have been made for this view, and sky. The ground's texels that
+    /// Draws the uploaded shape, which must have been made for this view, and sky. The ground's texels that
     /// are not there yet come in the background.
     /// \param measured  waits where it must to tell what was seen and how long the sea took
     Result<DrawFigures> draw(const lod::View& view, const DrawSettings& settings, const RenderTarget& target,
@@ -83,6 +85,9 @@ class Renderer {
         return overlays_ ? overlays_->figures(file) : OverlayDrawing::DrapeFigures{};
     }
 
+    /// Of the quadtree's nodes in graphics memory.
+    NodeBuffers::Figures node_figures() const { return nodes_ ? nodes_->figures() : NodeBuffers::Figures{}; }
+
     Ocean& ocean() { return *ocean_; }
     const Ocean& ocean() const { return *ocean_; }
 
@@ -93,7 +98,7 @@ class Renderer {
     struct Variant {
         Layer layer;
         Shading shading;
-        bool wireframe, sun_fixed, sky, ocean, probe;
+        bool nodes, wireframe, sun_fixed, sky, ocean, probe;
         std::vector<DrawnOverlay> overlays;
         int areas;  ///< of the graticule
         friend auto operator<=>(const Variant&, const Variant&) = default;
@@ -103,7 +108,8 @@ class Renderer {
     Result<void> provide_overlays(const DrawSettings& settings);
     /// Sets what all of a part of a picture needs, and has its ground's texels come.
     void prepare(const lod::View& view, const DrawSettings& settings, const PicturePart& part);
-    void draw_terrain(GlName program, const DrawSettings& settings);
+    /// \return  draw calls: none where nothing was uploaded
+    int draw_terrain(GlName program, const lod::View& view, const DrawSettings& settings);
     Result<GlName> terrain_program(const Variant& variant);
     Result<GlName> sky_program(bool low_sun);
     GlName ramp(const DrawSettings& settings);
@@ -133,7 +139,9 @@ class Renderer {
     GlVertexArray no_vertices_;  // the sky's: core OpenGL draws nothing without one
     GlQuery seen_;
     int index_count_ = 0;
-    float base_undulation_m_ = 0;  // of the sea's level, at the middle of the data
+    std::optional<NodeBuffers> nodes_;  // made with the first of them
+    bool draws_nodes_ = false;          // instead of the mesh
+    float base_undulation_m_ = 0;       // of the sea's level, at the middle of the data
 };
 
 }  // namespace relevo::viewer

@@ -1,8 +1,7 @@
 #include "lod/lstr/chunk_mesher.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <atomic>
 #include <utility>
 #include <vector>
 
@@ -10,6 +9,7 @@
 #include <tbb/parallel_for.h>
 
 #include "lod/lstr/chunk_group.hpp"
+#include "lod/lstr/finer_sides.hpp"
 
 namespace relevo::lod {
 
@@ -21,6 +21,7 @@ struct ChunkMesher::Workshop {
     Mesh mesh;
     int drawn = 0;
     double exaggeration = 0;              // of the places in the store
+    std::uint64_t edition = 0;            // likewise
     std::unique_ptr<ChunkGroups> groups;  // the store uses it
     std::unique_ptr<ChunkStore> store;
 
@@ -28,6 +29,7 @@ struct ChunkMesher::Workshop {
         : terrain(of), chunks(set), options(asked), selector(set, of.frame()) {}
 
     Result<void> prepare(const RefineOptions& refine);
+    ChunkPicture picture(const std::vector<SelectedChunk>& selected);
     void assemble(const View& view, const std::vector<SelectedChunk>& selected);
 };
 
@@ -41,8 +43,21 @@ Result<void> ChunkMesher::Workshop::prepare(const RefineOptions& refine) {
         if (!opened) return opened.error();
         store = *std::move(opened);
         exaggeration = refine.exaggeration;
+        static std::atomic<std::uint64_t> editions = 0;
+        edition = ++editions;
     }
     return {};
+}
+
+ChunkPicture ChunkMesher::Workshop::picture(const std::vector<SelectedChunk>& selected) {
+    ChunkPicture made{&selected, groups->frame(), edition, 0, 0};
+    for (const SelectedChunk& node : selected) {
+        const std::size_t finer = count_finer(node);
+        made.triangles += node.chunk->triangles->size() + finer;
+        made.vertices += node.chunk->vertices.size() + finer;
+    }
+    drawn = static_cast<int>(selected.size());
+    return made;
 }
 
 namespace {
@@ -50,32 +65,6 @@ namespace {
 glm::dvec3 up_at(const glm::dvec3& ecef) {
     constexpr double kAxes2 = 1 - 6.69437999014e-3;  // (polar radius / equatorial radius)^2
     return glm::normalize(ecef / glm::dvec3(1, 1, kAxes2));
-}
-
-constexpr std::array<Side, kSides> kOpposite{Side::east, Side::west, Side::south, Side::north};
-
-/// Calls visit(finer node, its vertex) for those of the finer nodes across a side that the node has not,
-/// along the side.
-template <class Visit>
-void for_each_finer(const ChunkGroup& across, Side side, const Visit& visit) {
-    const Side facing = kOpposite[static_cast<std::size_t>(side)];
-    constexpr std::array<std::array<std::size_t, 2>, kSides> kFacing{{{0, 2}, {1, 3}, {0, 1}, {2, 3}}};
-    for (const std::size_t child : kFacing[static_cast<std::size_t>(facing)]) {
-        const PlacedChunk& node = across.children[child];
-        for (const SideVertex& on : node.sides[static_cast<std::size_t>(facing)]) {
-            if (!on.kept) visit(node.vertices[on.vertex]);
-        }
-    }
-}
-
-std::size_t count_finer(const SelectedChunk& node) {
-    std::size_t count = 0;
-    for (std::size_t side = 0; side < kSides; ++side) {
-        if (node.finer[side] != nullptr)
-            for_each_finer(*node.finer[side], static_cast<Side>(side),
-                           [&](const PlacedChunk::Vertex&) { ++count; });
-    }
-    return count;
 }
 
 }  // namespace
@@ -110,31 +99,12 @@ void ChunkMesher::Workshop::assemble(const View& view, const std::vector<Selecte
             for (const SideVertex& on : chunk.sides[side])
                 vertices[on.vertex] = place(chunk.vertices[on.vertex], node.moved_on_side[side]);
         }
-        auto next = static_cast<std::uint32_t>(chunk.vertices.size());
-        SeamVertices seams;
-        for (std::size_t side = 0; side < kSides; ++side) {
-            if (node.finer[side] == nullptr) continue;
-            const bool along_row =
-                static_cast<Side>(side) == Side::north || static_cast<Side>(side) == Side::south;
-            const auto along = [&](const PlacedChunk::Vertex& v) { return along_row ? v.column : v.row; };
-            std::uint32_t edge = 0;
-            for_each_finer(*node.finer[side], static_cast<Side>(side), [&](const PlacedChunk::Vertex& finer) {
-                while (along(chunk.vertices[chunk.sides[side][edge + 1].vertex]) < along(finer)) ++edge;
-                vertices[next] = place(finer, 1);
-                seams[side].push_back({edge, next++});
-            });
-        }
-        std::uint32_t* const index = mesh.indices.data() + 3 * first_triangle[i];
-        const auto base = static_cast<std::uint32_t>(first_vertex[i]);
-        if (next > chunk.vertices.size()) {
-            stitch(*chunk.triangles, chunk.seams, seams, base, index);
-            return;
-        }
-        std::transform(&chunk.triangles->front()[0],
-                       &chunk.triangles->front()[0] + 3 * chunk.triangles->size(), index,
-                       [base](std::uint32_t v) { return base + v; });
+        const FinerSides finer = finer_sides(node);
+        std::transform(finer.vertices.begin(), finer.vertices.end(), vertices + chunk.vertices.size(),
+                       [&](const PlacedChunk::Vertex& vertex) { return place(vertex, 1); });
+        write_triangles(node, finer.seams, static_cast<std::uint32_t>(first_vertex[i]),
+                        mesh.indices.data() + 3 * first_triangle[i]);
     });
-    drawn = static_cast<int>(selected.size());
 }
 
 ChunkMesher::ChunkMesher(const Terrain& terrain, const ChunkSet& chunks, const ChunkOptions& options)
@@ -155,16 +125,15 @@ std::optional<Error> ChunkMesher::failure() const {
     return workshop_->store ? workshop_->store->failure() : std::nullopt;
 }
 
-Result<const Mesh*> ChunkMesher::mesh(const View& view, const RefineOptions& options) {
+Result<ChunkPicture> ChunkMesher::picture(const View& view, const RefineOptions& options) {
     Workshop& shop = *workshop_;
     if (auto done = shop.prepare(options); !done) return done.error();
     const SelectionOptions& selection = shop.options.selection;
     shop.store->start_frame(shop.selector.wish(view, options, selection));
-    shop.assemble(view, shop.selector.select(view, options, selection, *shop.store));
-    return &shop.mesh;
+    return shop.picture(shop.selector.select(view, options, selection, *shop.store));
 }
 
-Result<const Mesh*> ChunkMesher::whole_mesh(const View& view, const RefineOptions& options) {
+Result<ChunkPicture> ChunkMesher::whole_picture(const View& view, const RefineOptions& options) {
     Workshop& shop = *workshop_;
     if (auto done = shop.prepare(options); !done) return done.error();
     SelectionOptions selection = shop.options.selection;
@@ -177,8 +146,12 @@ Result<const Mesh*> ChunkMesher::whole_mesh(const View& view, const RefineOption
         if (wish.now && shop.store->find(wish.parent) == nullptr) missing.push_back(wish.parent);
     }
     if (auto done = shop.store->load(missing); !done) return done.error();
-    shop.assemble(view, shop.selector.select(view, options, selection, *shop.store));
-    return &shop.mesh;
+    return shop.picture(shop.selector.select(view, options, selection, *shop.store));
+}
+
+const Mesh& ChunkMesher::assemble(const View& view, const ChunkPicture& picture) {
+    workshop_->assemble(view, *picture.nodes);
+    return workshop_->mesh;
 }
 
 }  // namespace relevo::lod

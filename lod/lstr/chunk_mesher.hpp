@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "geo/result.hpp"
+#include "lod/lstr/chunk_picture.hpp"
 #include "lod/lstr/chunk_selector.hpp"
 #include "lod/lstr/chunk_set.hpp"
 #include "lod/lstr/chunk_store.hpp"
@@ -28,18 +29,29 @@ class ChunkMesher {
     ChunkMesher(const Terrain& terrain, const ChunkSet& chunks, const ChunkOptions& options = {});
     ~ChunkMesher();
 
-    /// The mesh of a view of what is in memory; what is missing, and what is near, is read in the background.
-    /// Valid until the next call. Fails where the root cannot be read.
-    Result<const Mesh*> mesh(const View& view, const RefineOptions& options);
+    /// What shows a view, of what is in memory; what is missing, and what is near, is read in the background.
+    /// Fails where the root cannot be read.
+    Result<ChunkPicture> picture(const View& view, const RefineOptions& options);
 
     /// Of all that the view asks for: waits for what is missing, has no room too small, and nothing fades in.
     /// Fails where a read does.
-    Result<const Mesh*> whole_mesh(const View& view, const RefineOptions& options);
+    Result<ChunkPicture> whole_picture(const View& view, const RefineOptions& options);
+
+    /// The last picture as one mesh. Valid until the next call.
+    /// \param view  that the picture was made for
+    const Mesh& assemble(const View& view, const ChunkPicture& picture);
+
+    Result<const Mesh*> mesh(const View& view, const RefineOptions& options) {
+        return assembled(view, picture(view, options));
+    }
+    Result<const Mesh*> whole_mesh(const View& view, const RefineOptions& options) {
+        return assembled(view, whole_picture(view, options));
+    }
 
     SelectionOptions& selection();
 
     struct Figures {
-        int drawn_nodes = 0;  ///< of the last mesh
+        int drawn_nodes = 0;  ///< of the last picture
         bool fading = false;  ///< are nodes still coming in?
         ChunkStore::Figures store;
     };
@@ -49,6 +61,11 @@ class ChunkMesher {
     std::optional<Error> failure() const;
 
   private:
+    Result<const Mesh*> assembled(const View& view, const Result<ChunkPicture>& picture) {
+        if (!picture) return picture.error();
+        return &assemble(view, *picture);
+    }
+
     struct Workshop;
     std::unique_ptr<Workshop> workshop_;
 };

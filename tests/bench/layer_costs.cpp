@@ -151,8 +151,8 @@ int main(int count, char** words) {
     const auto target = must(viewer::RenderTarget::create(kWidth, kHeight, 1));
     viewer::Mesher mesher(terrain);
     const lod::View view(camera_of(start, heights, kWidth, kHeight));
-    const lod::Mesh& mesh = *must(mesher.whole_mesh(view, start));
-    renderer.upload(mesh);
+    const viewer::DrawnGround drawn = must(mesher.whole_ground(view, start));
+    renderer.upload(drawn);
 
     auto cases = cases_of(start);
     std::vector<double> label_ms;
@@ -178,7 +178,7 @@ int main(int count, char** words) {
             ->median();
     };
     nlohmann::json table = nlohmann::json::array();
-    if (!json) fmt::print("{} triangles, {}\n", mesh.triangles(), viewer::gl_description());
+    if (!json) fmt::print("{} triangles, {}\n", viewer::triangles(drawn), viewer::gl_description());
     for (const Case& of : cases) {
         const double added = of.base.empty() ? 0 : of.median() - ms_named(of.base);
         table.push_back(
@@ -186,7 +186,7 @@ int main(int count, char** words) {
         if (!json) fmt::print("| {} | {:.1f} | {:+.1f} |\n", of.name, of.median(), added);
     }
     if (json) {
-        fmt::print("{}\n", nlohmann::json{{"triangles", mesh.triangles()},
+        fmt::print("{}\n", nlohmann::json{{"triangles", viewer::triangles(drawn)},
                                           {"width", kWidth},
                                           {"height", kHeight},
                                           {"rounds", kRounds},

@@ -2,7 +2,7 @@
 // 300 frames straight from the south to the north over the middle of a scene, 7500 m up, drawn off-screen
 // in the tints, morphing. Figures are medians of interleaved runs.
 //
-//   lstr_tables sort SCENE           drawn from front to back and not (its table 3)
+//   lstr_tables sort SCENE           drawn from front to back and not (its table 3), as nodes or as one mesh
 //   lstr_tables sizes SCENE...       by the size of the map (its table 4)
 //   lstr_tables distance SCENE       by the view distance in posts (its table 5)
 //   lstr_tables swap SCENE           by the swap sphere's radius in posts (its table 6)
@@ -71,6 +71,7 @@ struct Setting {
     Method method = Method::lstr;
     double tau_px = 1;
     lod::SelectionOptions selection = {.fade_s = 0};
+    bool joined = false;  // nodes are not kept in graphics memory, but made one mesh each frame
     double view_distance_m = std::numeric_limits<double>::infinity();
 
     lod::RefineOptions refine() const { return {.tau_px = tau_px, .view_distance_m = view_distance_m}; }
@@ -81,8 +82,10 @@ struct Row {
     double triangles = 0;  // the mean over the frames, as all below
     double resident_mib = 0;
     double draw_calls = 0;
+    double made_ms = 0;  // from a view to its shape handed over
     double nodes_drawn = 0;
     double nodes_in_memory = 0;
+    double nodes_sent_kib = 0;
     double largest_error_px = 0;
 };
 
@@ -128,19 +131,23 @@ class Stage {
     }
 
     /// Draws a view of what is in memory.
-    const lod::Mesh& draw(const lod::View& view, const Setting& setting, Row* row = nullptr) {
-        const lod::Mesh& mesh = mesh_of(view, setting);
-        renderer_->upload(mesh);
+    viewer::DrawnGround draw(const lod::View& view, const Setting& setting, Row* row = nullptr) {
+        const auto start = Clock::now();
+        const viewer::DrawnGround ground = ground_of(view, setting);
+        renderer_->upload(ground);
+        const double made_ms = 1e3 * seconds_since(start);
         const auto drawn = must(renderer_->draw(view, settings_, target_));
         viewer::gl_finish();
         if (row != nullptr) {
-            row->triangles += static_cast<double>(mesh.triangles());
+            row->made_ms += made_ms;
+            row->triangles += static_cast<double>(viewer::triangles(ground));
             row->draw_calls += drawn.draw_calls;
             const auto figures = chunks(setting).figures();
             row->nodes_drawn += figures.drawn_nodes;
             row->nodes_in_memory += static_cast<double>(figures.store.resident_nodes);
+            row->nodes_sent_kib += static_cast<double>(renderer_->node_figures().sent_bytes) / 1024;
         }
-        return mesh;
+        return ground;
     }
 
     /// Waits until all that the path wants is there: what is measured then is drawing.
@@ -160,7 +167,8 @@ class Stage {
         const auto start = Clock::now();
         for (int k = 0; k < frames; ++k) draw(view_at(static_cast<double>(k) / (frames - 1)), setting, &row);
         row.frames_s = frames / seconds_since(start);
-        for (double* sum : {&row.triangles, &row.draw_calls, &row.nodes_drawn, &row.nodes_in_memory})
+        for (double* sum : {&row.triangles, &row.draw_calls, &row.made_ms, &row.nodes_drawn,
+                            &row.nodes_in_memory, &row.nodes_sent_kib})
             *sum /= frames;
         row.resident_mib = viewer::resident_mib();
         return row;
@@ -173,7 +181,7 @@ class Stage {
         for (int k = 0; k < kPlaces; ++k) {
             const lod::View view = view_at(static_cast<double>(k) / (kPlaces - 1));
             settle(view, setting);
-            const auto error = lod::measure_error(terrain_, view, mesh_of(view, setting));
+            const auto error = lod::measure_error(terrain_, view, mesh_of(view, ground_of(view, setting)));
             if (error) worst_px = std::max(worst_px, error->max_px);
         }
         return worst_px;
@@ -187,12 +195,18 @@ class Stage {
         return *chunks_;
     }
 
+    /// \pre  made last
+    const lod::Mesh& mesh_of(const lod::View& view, const viewer::DrawnGround& ground) {
+        const auto* nodes = std::get_if<lod::ChunkPicture>(&ground);
+        return nodes != nullptr ? chunks_->assemble(view, *nodes) : std::get<0>(ground).get();
+    }
+
     /// Pixels that show the background, which is red as no ground is.
-    int pixels_without_ground(const lod::View& view, const lod::Mesh& mesh) {
+    int pixels_without_ground(const lod::View& view, const viewer::DrawnGround& ground) {
         viewer::DrawSettings settings = settings_;
         settings.background = {{1, 0, 0}};
         settings.layer = viewer::Layer::plain;
-        renderer_->upload(mesh);
+        renderer_->upload(ground);
         must(renderer_->draw(view, settings, target_));
         viewer::Picture picture(width_, height_);
         target_.read_into(picture, 0, 0);
@@ -207,8 +221,12 @@ class Stage {
     }
 
   private:
-    const lod::Mesh& mesh_of(const lod::View& view, const Setting& setting) {
-        if (setting.method == Method::lstr) return *must(chunks(setting).mesh(view, setting.refine()));
+    viewer::DrawnGround ground_of(const lod::View& view, const Setting& setting) {
+        if (setting.method == Method::lstr) {
+            const lod::ChunkPicture nodes = must(chunks(setting).picture(view, setting.refine()));
+            if (setting.joined) return chunks_->assemble(view, nodes);
+            return nodes;
+        }
         terrain_.tiles().start_frame();
         return refiner_.refine(view, setting.refine());
     }
@@ -218,10 +236,10 @@ class Stage {
             return;
         }
         lod::ChunkMesher& mesher = chunks(setting);
-        must(mesher.mesh(view, setting.refine()));
+        must(mesher.picture(view, setting.refine()));
         while (mesher.figures().store.pending_groups > 0) {
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
-            must(mesher.mesh(view, setting.refine()));
+            must(mesher.picture(view, setting.refine()));
         }
     }
 
@@ -238,19 +256,21 @@ class Stage {
 };
 
 constexpr const char* kHead =
-    "| {} | method | frames/s | triangles | memory MiB | draw calls | nodes drawn | nodes in memory | "
-    "largest "
-    "error px |\n|---|---|---:|---:|---:|---:|---:|---:|---:|\n";
+    "| {} | method | frames/s | triangles | memory MiB | draw calls | ms to draw calls | nodes drawn | nodes "
+    "in "
+    "memory | KiB of nodes sent | largest error px "
+    "|\n|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n";
 
 void print(const std::string& what, Method method, const std::vector<Row>& runs) {
     std::vector<double> rates;
     for (const Row& run : runs) rates.push_back(run.frames_s);
     const Row& row = runs.front();
     const bool lstr = method == Method::lstr;
-    fmt::print("| {} | {} | {:.1f} | {:.0f} | {:.0f} | {:.0f} | {} | {} | {:.2f} |\n", what,
+    const auto of_nodes = [&](double figure) { return lstr ? fmt::format("{:.0f}", figure) : ""; };
+    fmt::print("| {} | {} | {:.1f} | {:.0f} | {:.0f} | {:.0f} | {:.2f} | {} | {} | {} | {:.2f} |\n", what,
                lstr ? "lstr" : "soar", quantile(rates, 0.5), row.triangles, row.resident_mib, row.draw_calls,
-               lstr ? fmt::format("{:.0f}", row.nodes_drawn) : "",
-               lstr ? fmt::format("{:.0f}", row.nodes_in_memory) : "", row.largest_error_px);
+               row.made_ms, of_nodes(row.nodes_drawn), of_nodes(row.nodes_in_memory),
+               of_nodes(row.nodes_sent_kib), row.largest_error_px);
     std::fflush(stdout);
 }
 
@@ -276,12 +296,14 @@ void run_table(Stage& stage, const std::vector<Named>& settings, const Options& 
 
 void sort_table(const std::string& scene, const Options& options) {
     Stage stage(scene, options.width, options.height);
-    std::vector<Named> settings;
-    for (const bool sorted : {true, false}) {
-        Setting setting{.tau_px = options.tau_px};
-        setting.selection.front_to_back = sorted;
-        settings.push_back({sorted ? "front to back" : "as the tree lists them", setting});
-    }
+    const Setting usual{.tau_px = options.tau_px};
+    Setting unsorted = usual;
+    unsorted.selection.front_to_back = false;
+    Setting joined = usual;
+    joined.joined = true;
+    const std::vector<Named> settings{{"front to back", usual},
+                                      {"as the tree lists them", unsorted},
+                                      {"front to back, made one mesh each frame", joined}};
     fmt::print(kHead, "order");
     run_table(stage, settings, options);
 }
@@ -369,11 +391,12 @@ void flight(const std::string& scene, const Options& options) {
         camera.heading = geo::Degrees{720 * part};
         const lod::View view(camera);
         const auto start = Clock::now();
-        const lod::Mesh& mesh = stage.draw(view, setting);
+        const viewer::DrawnGround ground = stage.draw(view, setting);
         frame_ms.push_back(1e3 * seconds_since(start));
+        const lod::Mesh& mesh = stage.mesh_of(view, ground);
         cracked_meshes += lod::count_t_vertices(mesh) > 0 ? 1 : 0;
         torn_meshes += lod::count_torn_posts(mesh) > 0 ? 1 : 0;
-        holes += stage.pixels_without_ground(view, mesh);
+        holes += stage.pixels_without_ground(view, ground);
         const auto figures = stage.chunks(setting).figures().store;
         most_bytes = std::max(most_bytes, figures.resident_bytes);
         pending_frames += figures.pending_groups > 0 ? 1 : 0;

@@ -90,7 +90,7 @@ Result<bool> run(const char* path, const Trial& trial) {
     state.morph = true;
     const auto draw = [&](const lod::View& view, double& refine_ms) -> Result<const lod::Mesh*> {
         const auto start = Clock::now();
-        const lod::Mesh& mesh = mesher.mesh(view, state, budget);
+        const lod::Mesh& mesh = mesher.mesh(view, mesher.ground(view, state, budget));
         state.tau_px = budget.tau_px();
         refine_ms = 1000 * seconds_since(start);
         renderer->upload(mesh);

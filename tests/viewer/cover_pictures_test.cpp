@@ -239,7 +239,7 @@ TEST(CoverPictures, NodesOfTheQuadtreeLookLikeRefinement) {
         auto camera = above_looking_down(studio.terrain(), 128, 200, metres, 320, 240);
         camera.pitch.value = -20;
         const lod::View view(camera);
-        const auto nodes = studio.draw(view, *must(mesher.whole_mesh(view, {.tau_px = 1})), lit("auto"));
+        const auto nodes = studio.draw(view, must(mesher.whole_picture(view, {.tau_px = 1})), lit("auto"));
         const auto refined = studio.draw(camera, lit("auto"));
         EXPECT_LT(difference(nodes, refined), 4) << metres << " m";
     }

@@ -39,7 +39,7 @@ TEST(Mesher, TauGrowsUntilTheTerrainFitsInItsMemory) {
     lod::TileStore& tiles = terrain.tiles();
     const lod::Mesh* mesh = nullptr;
     for (int frame = 0; frame < 150; ++frame) {
-        mesh = &mesher.mesh(view, {}, budget);
+        mesh = &mesher.mesh(view, mesher.ground(view, {}, budget));
         EXPECT_EQ(lod::count_t_vertices(*mesh), 0) << frame;
         tiles.start_frame();  // takes stock of the frame
         while (tiles.wait()) {

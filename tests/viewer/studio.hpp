@@ -60,15 +60,15 @@ class Studio {
         const lod::View view(camera);
         viewer::ViewState state = how;
         state.exaggeration = settings.exaggeration;
-        return draw(view, *must(mesher_.whole_mesh(view, state)), settings, samples);
+        return draw(view, must(mesher_.whole_ground(view, state)), settings, samples);
     }
 
-    viewer::Picture draw(const lod::View& view, const lod::Mesh& mesh, const viewer::DrawSettings& settings,
-                         int samples = 1) {
+    viewer::Picture draw(const lod::View& view, const viewer::DrawnGround& ground,
+                         const viewer::DrawSettings& settings, int samples = 1) {
         const int width = view.camera().width;
         const int height = view.camera().height;
         const auto target = must(viewer::RenderTarget::create(width, height, samples));
-        renderer_.upload(mesh);
+        renderer_.upload(ground);
         must(renderer_.complete(view, settings, {0, 0, width, height}));
         figures = must(renderer_.draw(view, settings, target, {}, true));
         viewer::Picture picture(width, height);

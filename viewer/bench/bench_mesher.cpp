@@ -44,13 +44,13 @@ Result<std::unique_ptr<BenchMesher>> BenchMesher::create(const lod::Scene& scene
     return std::unique_ptr<BenchMesher>(new BenchMesher(std::move(*terrain), std::move(textbook), paging));
 }
 
-Result<BenchMesher::Made> BenchMesher::mesh(const lod::View& view, const ViewState& state,
+Result<BenchMesher::Made> BenchMesher::make(const lod::View& view, const ViewState& state,
                                             const BenchSetting& setting, double tau_px, FrameBudget* budget) {
     if (textbook_) {
         const auto start = Clock::now();
         textbook_->refine(view, state.H, tau_px);
         const double refine_ms = ms_since(start);
-        return Made{&textbook_->mesh(view), refine_ms};  // putting it on the earth is not the textbook's
+        return Made{textbook_->mesh(view), refine_ms};  // putting it on the earth is not the textbook's
     }
     ViewState asked = state;
     asked.method = setting.method == BenchMethod::full   ? Method::full
@@ -60,13 +60,13 @@ Result<BenchMesher::Made> BenchMesher::mesh(const lod::View& view, const ViewSta
     asked.tau_px = tau_px;
     const auto timed = [&] {
         const auto start = Clock::now();
-        const lod::Mesh& made = budget ? mesher_.mesh(view, asked, *budget) : mesher_.mesh(view, asked);
-        return Made{&made, ms_since(start)};
+        const DrawnGround made = budget ? mesher_.ground(view, asked, *budget) : mesher_.ground(view, asked);
+        return Made{made, ms_since(start)};
     };
     if (asked.method == Method::lstr && waits()) {
-        if (const auto read = mesher_.whole_mesh(view, asked); !read) return read.error();
+        if (const auto read = mesher_.whole_ground(view, asked); !read) return read.error();
         const auto start = Clock::now();
-        const auto whole = mesher_.whole_mesh(view, asked);
+        const auto whole = mesher_.whole_ground(view, asked);
         if (!whole) return whole.error();
         return Made{*whole, ms_since(start)};
     }
@@ -74,7 +74,7 @@ Result<BenchMesher::Made> BenchMesher::mesh(const lod::View& view, const ViewSta
     if (asked.method != Method::soar || !waits() || is_whole()) return made;
     // The time of a mesh is that of all it needs, and its error is held to tau: what was missing is read
     // first.
-    if (const auto whole = mesher_.whole_mesh(view, asked); !whole) return whole.error();
+    if (const auto whole = mesher_.whole_ground(view, asked); !whole) return whole.error();
     return timed();
 }
 

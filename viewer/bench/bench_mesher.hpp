@@ -11,8 +11,8 @@
 
 namespace relevo::viewer {
 
-/// One method with what it has in memory: makes meshes, and says how long that took. The only place of the
-/// benchmark that knows how methods differ.
+/// One method with what it has in memory: makes what is drawn, and says how long that took. The only place of
+/// the benchmark that knows how methods differ.
 class BenchMesher {
   public:
     enum class Paging {
@@ -25,12 +25,15 @@ class BenchMesher {
                                                        const BenchOptions& options, Paging paging);
 
     struct Made {
-        const lod::Mesh* mesh;  ///< valid until the next call
+        DrawnGround ground;  ///< valid until the next call
         double refine_ms;
     };
     /// \param view  of the state, in a picture \param budget  that chooses tau, or null
-    Result<Made> mesh(const lod::View& view, const ViewState& state, const BenchSetting& setting,
+    Result<Made> make(const lod::View& view, const ViewState& state, const BenchSetting& setting,
                       double tau_px, FrameBudget* budget = nullptr);
+
+    /// What was made last as one mesh. \param view  that it was made for
+    const lod::Mesh& mesh(const lod::View& view, const Made& made) { return mesher_.mesh(view, made.ground); }
 
     /// What the renderer draws from and errors are measured against.
     const lod::Terrain& terrain() const { return terrain_; }

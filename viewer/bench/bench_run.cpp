@@ -94,19 +94,18 @@ class MethodRun {
                             FrameBudget* budget = nullptr) {
         const ViewState state = state_at(time_s);
         const lod::View view(camera_of(state, heights_, options_.width, options_.height));
-        const auto mesh = mesher_.mesh(view, state, setting, tau_px, budget);
-        if (!mesh) return mesh.error();
-        const BenchMesher::Made& made = *mesh;
+        const auto made = mesher_.make(view, state, setting, tau_px, budget);
+        if (!made) return made.error();
         BenchFrame frame;
         frame.run = run_;
         frame.time_s = time_s;
         frame.tau_px = budget ? budget->tau_px() : tau_px;
-        frame.refine_ms = made.refine_ms;
-        frame.triangles = made.mesh->triangles();
-        frame.vertices = made.mesh->vertices.size();
+        frame.refine_ms = made->refine_ms;
+        frame.triangles = triangles(made->ground);
+        frame.vertices = vertices(made->ground);
 
         const auto upload = Clock::now();
-        renderer_.upload(*made.mesh);
+        renderer_.upload(made->ground);
         frame.upload_ms = ms_since(upload);
         const DrawSettings settings = draw_settings(state);
         const PicturePart all{0, 0, options_.width, options_.height};
@@ -125,11 +124,12 @@ class MethodRun {
         frame.pending_tiles = tiles.pending_tiles;
 
         if (measure.error) {
-            frame.error = lod::measure_error(mesher_.terrain(), view, *made.mesh, state.exaggeration);
+            frame.error =
+                lod::measure_error(mesher_.terrain(), view, mesher_.mesh(view, *made), state.exaggeration);
             malloc_trim(0);  // what measuring took is not the method's memory
         }
         if (measure.jump) {
-            auto jump = jump_after(setting, time_s, tau_px, *made.mesh, view.eye());
+            auto jump = jump_after(setting, time_s, tau_px, mesher_.mesh(view, *made), view.eye());
             if (!jump) return jump.error();
             frame.jump = *jump;
         }
@@ -142,10 +142,10 @@ class MethodRun {
         const ViewState state = state_at(time_s + kJumpStepS);
         const lod::View view(camera_of(state, heights_, options_.width, options_.height));
         const lod::Mesh before = mesh;  // the next one takes its place
-        const auto after = mesher_.mesh(view, state, setting, tau_px);
+        const auto after = mesher_.make(view, state, setting, tau_px);
         if (!after) return after.error();
         const geo::GridFrame& grid = scene_.info().frame;
-        return lod::surface_jump(before, eye, *after->mesh, view, grid.columns, grid.rows);
+        return lod::surface_jump(before, eye, mesher_.mesh(view, *after), view, grid.columns, grid.rows);
     }
 
     const lod::Scene& scene_;

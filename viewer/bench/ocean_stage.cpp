@@ -104,9 +104,9 @@ lod::Camera OceanStage::camera(const OceanSight& sight) const {
 Result<void> OceanStage::prepare(const lod::View& view, const DrawSettings& settings) {
     map_ = settings.ocean.map;
     sea_.map = map_.get();
-    const auto mesh = mesher_.whole_mesh(view, {});
-    if (!mesh) return mesh.error();
-    renderer_->upload(**mesh);
+    const auto ground = mesher_.whole_ground(view, {});
+    if (!ground) return ground.error();
+    renderer_->upload(*ground);
     return renderer_->complete(view, settings, {0, 0, width_, height_});
 }
 

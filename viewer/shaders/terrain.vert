@@ -1,5 +1,26 @@
-layout(location = 0) in vec3 offset;  // from the eye, ECEF axes
-layout(location = 1) in uvec2 post;   // column and row in the padded grid
+layout(location = 1) in uvec2 post;  // column and row in the padded grid
+#ifdef NODES
+layout(location = 0) in ivec3 place;  // in units, from the terrain's origin
+layout(location = 2) in float rise;   // to the coarser level, metres
+layout(location = 3) in uint part;    // what it moves with: 0 the node's inside, 1 to 4 a side, 5 all the way
+
+layout(location = 0) uniform vec4 moved_on_side;  // parts of the way to the coarser level
+layout(location = 1) uniform float moved;
+layout(location = 2) uniform ivec3 base;           // the place nearest to the eye
+layout(location = 3) uniform vec4 base_from_eye;   // metres; w: of a unit
+layout(location = 4) uniform vec3 eye;             // ECEF
+
+// From the eye, ECEF axes. Of a place alone: what two nodes share is in both where it is in one.
+vec3 offset_from_eye() {
+    precise vec3 offset = vec3(place - base) * base_from_eye.w + base_from_eye.xyz;
+    float way = part == 0u ? moved : part == 5u ? 1.0 : moved_on_side[part - 1u];
+    const float axes = 1.0 - 6.69437999014e-3;  // polar radius / equatorial radius, squared
+    vec3 up = normalize((eye + offset) / vec3(1.0, 1.0, axes));
+    return offset + way * rise * up;
+}
+#else
+layout(location = 0) in vec3 offset_from_eye;  // ECEF axes
+#endif
 
 out gl_PerVertex {
     vec4 gl_Position;
@@ -85,6 +106,11 @@ vec3 plain_colour(vec2 at) {
 #endif
 
 void main() {
+#ifdef NODES
+    precise vec3 offset = offset_from_eye();
+#else
+    vec3 offset = offset_from_eye;
+#endif
     gl_Position = frame.clip_from_offset * vec4(offset, 1.0);
     vec2 at = vec2(post);
     // Padding lies east and south of the data.

@@ -103,19 +103,19 @@ int fly(const peers::PeerOptions& options) {
         [&](double part) -> peers::FrameFigures {
             window.poll(0);
             const lod::View view(camera_at(terrain, part, options));
-            const lod::Mesh& mesh = mesher.mesh(view, how);
-            renderer.upload(mesh);
+            const viewer::DrawnGround ground = mesher.ground(view, how);
+            renderer.upload(ground);
             const auto drawn = must(renderer.draw(view, settings, target));
             target.show();
             window.show();
-            return {static_cast<double>(mesh.triangles()), static_cast<double>(drawn.draw_calls)};
+            return {static_cast<double>(viewer::triangles(ground)), static_cast<double>(drawn.draw_calls)};
         },
         [&](double part) -> peers::PixelErrors {
             const lod::View view(camera_at(terrain, part, options));
-            const lod::Mesh& mesh = *must(mesher.whole_mesh(view, how));
-            const auto error = lod::measure_error(terrain, view, mesh);
+            const viewer::DrawnGround ground = must(mesher.whole_ground(view, how));
+            const auto error = lod::measure_error(terrain, view, mesher.mesh(view, ground));
             if (!error || error->uncovered_posts > 0) throw std::runtime_error("the mesh has a hole");
-            renderer.upload(mesh);
+            renderer.upload(ground);
             must(renderer.complete(view, settings, {0, 0, options.width, options.height}));
             must(renderer.draw(view, settings, target));
             peers::PixelErrors errors = drawn_errors(terrain, view);
@@ -127,7 +127,7 @@ int fly(const peers::PeerOptions& options) {
     const int stops = std::max(options.frames, 1);
     for (int k = 0; k <= stops; ++k) {
         const lod::View view(camera_at(terrain, static_cast<double>(k) / stops, options));
-        must(mesher.whole_mesh(view, how));
+        must(mesher.whole_ground(view, how));
         must(renderer.complete(view, settings, {0, 0, options.width, options.height}));
     }
     program.frame(0);
