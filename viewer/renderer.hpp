@@ -11,13 +11,13 @@
 #include "lod/terrain.hpp"
 #include "lod/view.hpp"
 #include "viewer/draw_settings.hpp"
-#include "viewer/gl_object.hpp"
+#include "viewer/gl/gl_object.hpp"
+#include "viewer/gl/render_target.hpp"
 #include "viewer/ground/ground_cover.hpp"
 #include "viewer/ground/ground_textures.hpp"
 #include "viewer/layer.hpp"
 #include "viewer/ocean/ocean.hpp"
-#include "viewer/overlay_drawing.hpp"
-#include "viewer/render_target.hpp"
+#include "viewer/overlay/overlay_drawing.hpp"
 
 namespace relevo::viewer {
 
