@@ -16,7 +16,7 @@
 #include "viewer/bench/bench_report.hpp"
 #include "viewer/bench/ocean_bench.hpp"
 #include "viewer/bench/result_folder.hpp"
-#include "viewer/default_flight.hpp"
+#include "viewer/flight/default_flight.hpp"
 #include "viewer/numbers.hpp"
 
 namespace relevo::app {

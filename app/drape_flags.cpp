@@ -8,7 +8,7 @@
 #include "app/layer_files.hpp"
 #include "viewer/ground/ground_data.hpp"
 #include "viewer/numbers.hpp"
-#include "viewer/overlay_list.hpp"
+#include "viewer/overlay/overlay_list.hpp"
 
 namespace relevo::app {
 

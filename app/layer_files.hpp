@@ -5,7 +5,7 @@
 
 #include "geo/frame.hpp"
 #include "geo/result.hpp"
-#include "viewer/layer_files.hpp"
+#include "viewer/flight/layer_files.hpp"
 
 namespace relevo::app {
 

@@ -7,9 +7,9 @@
 #include "lod/cache_sizes.hpp"
 #include "lod/machine_figures.hpp"
 #ifdef RELEVO_VIEWER
-#include "viewer/gl_check.hpp"
-#include "viewer/gl_context_egl.hpp"
-#include "viewer/gl_memory.hpp"
+#include "viewer/gl/gl_check.hpp"
+#include "viewer/gl/gl_context_egl.hpp"
+#include "viewer/gl/gl_memory.hpp"
 #endif
 
 namespace relevo::app {

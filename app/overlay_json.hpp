@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "viewer/overlay_figures.hpp"
+#include "viewer/overlay/overlay_figures.hpp"
 
 namespace relevo::app {
 

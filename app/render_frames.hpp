@@ -4,7 +4,7 @@
 #include <string>
 
 #include "geo/result.hpp"
-#include "viewer/flight_path.hpp"
+#include "viewer/flight/flight_path.hpp"
 #include "viewer/offscreen.hpp"
 
 namespace relevo::app {

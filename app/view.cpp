@@ -16,7 +16,7 @@
 #include "app/overlay_json.hpp"
 #include "app/quick_import.hpp"
 #include "app/view_flags.hpp"
-#include "viewer/flight.hpp"
+#include "viewer/flight/flight.hpp"
 
 namespace relevo::app {
 

@@ -13,7 +13,7 @@
 #include "lod/terrain.hpp"
 #include "viewer/eye_height.hpp"
 #include "viewer/frame_budget.hpp"
-#include "viewer/marks.hpp"
+#include "viewer/marks/marks.hpp"
 #include "viewer/view_state.hpp"
 
 namespace relevo::app {

@@ -13,8 +13,8 @@
 #include <ingest/lstr_generator.hpp>
 #include <lod/measure/height_sampler.hpp>
 #include <viewer/camera.hpp>
-#include <viewer/default_flight.hpp>
-#include <viewer/gl_context_egl.hpp>
+#include <viewer/flight/default_flight.hpp>
+#include <viewer/gl/gl_context_egl.hpp>
 #include <viewer/lstr_viewer.hpp>
 #include <viewer/picture.hpp>
 

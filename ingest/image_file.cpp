@@ -9,23 +9,12 @@
 #include <gdal_utils.h>
 #include <ogr_spatialref.h>
 
+#include "ingest/byte_raster.hpp"
 #include "ingest/refusal.hpp"
 #include "ingest/source/gdal_messages.hpp"
 
 namespace relevo::ingest {
 namespace {
-
-const char* crs_of(geo::FrameKind kind) {
-    switch (kind) {
-        case geo::FrameKind::ups_north:
-            return "EPSG:5041";
-        case geo::FrameKind::ups_south:
-            return "EPSG:5042";
-        case geo::FrameKind::geographic:
-            break;
-    }
-    return "EPSG:4326";
-}
 
 /// Which bands are shown: red, green, blue or the only one, and alpha.
 struct Bands {
@@ -65,21 +54,9 @@ Result<void> check(GDALDataset& dataset, const std::string& name) {
     const Bands bands = bands_of(dataset);
     if (bands.colours.empty())
         return refusal(name, "it has no band of colours", "Give a raster of one or three bands");
-    for (const int i : bands.colours) {
-        const GDALDataType type = dataset.GetRasterBand(i)->GetRasterDataType();
-        if (type != GDT_Byte)
-            return refusal(
-                name,
-                fmt::format("its band {} is {}, and pictures are of bytes", i, GDALGetDataTypeName(type)),
-                "Convert it first: gdal_translate -ot Byte -scale");
-    }
-    std::array<double, 6> affine{};
-    const bool placed = dataset.GetGeoTransform(affine.data()) == CE_None || dataset.GetGCPCount() > 0;
-    const bool has_crs = dataset.GetSpatialRef() != nullptr || dataset.GetGCPSpatialRef() != nullptr;
-    if (!placed || !has_crs)
-        return refusal(name, placed ? "it has no coordinate reference system" : "it has no georeference",
-                       "Add one first: gdal_translate -a_srs EPSG:4326 -a_ullr WEST NORTH EAST SOUTH");
-    return {};
+    if (auto fine = check_bytes(dataset, name, bands.colours, "pictures are of bytes"); !fine)
+        return fine.error();
+    return check_georeference(dataset, name);
 }
 
 /// The bands that are shown and no others, palettes as colours.
@@ -142,27 +119,14 @@ Result<void> warp_onto(GDALDataset& from, const std::string& name, const geo::Gr
     const double y_step = square.step * frame.step_y;
     const double west = frame.west + square.column * frame.step_x - 0.5 * x_step + turned;
     const double north = frame.north - square.row * frame.step_y + 0.5 * y_step;
-    CPLStringList words;  // GDAL's bilinear kernel grows with the texels: it also averages
-    for (const char* word : {"-of", "MEM", "-ot", "Byte", "-r", "bilinear", "-dstalpha", "-et", "0.02", "-wo",
-                             "UNIFIED_SRC_NODATA=YES", "-t_srs", crs_of(frame.kind), "-te"})
-        words.AddString(word);
-    for (const double bound : {west, north - square.side * y_step, west + square.side * x_step, north})
-        words.AddString(fmt::format("{:.17g}", bound).c_str());
-    words.AddString("-ts");
-    for (int i = 0; i < 2; ++i) words.AddString(std::to_string(square.side).c_str());
-    auto* options = GDALWarpAppOptionsNew(words.List(), nullptr);
-    GDALDatasetH source = GDALDataset::ToHandle(&from);
-    const DatasetPtr made(GDALDataset::FromHandle(GDALWarp("", nullptr, 1, &source, options, nullptr)));
-    GDALWarpAppOptionsFree(options);
-    const int bands = made ? made->GetRasterCount() : 0;
-    std::vector<std::uint8_t> warped(texels.size() * static_cast<std::size_t>(std::max(bands, 1)));
-    if ((bands != 2 && bands != 4) ||
-        made->RasterIO(GF_Read, 0, 0, square.side, square.side, warped.data(), square.side, square.side,
-                       GDT_Byte, bands, nullptr, bands, static_cast<GSpacing>(bands) * square.side, 1,
-                       nullptr) != CE_None)
+    const auto warped =
+        warp_bytes(from, frame.kind, {west, north - square.side * y_step, west + square.side * x_step, north},
+                   square.side, square.side, {"-et", "0.02", "-wo", "UNIFIED_SRC_NODATA=YES"});
+    const int bands = warped ? warped->bands : 0;
+    if (bands != 2 && bands != 4)
         return refusal(name, fmt::format("a part of it cannot be read ({})", messages.text()),
                        "Check the file: gdalinfo -checksum");
-    const std::uint8_t* pixel = warped.data();
+    const std::uint8_t* pixel = warped->bytes.data();
     for (auto& texel : texels) {
         const unsigned alpha = pixel[bands - 1];
         if (alpha > texel[3]) {

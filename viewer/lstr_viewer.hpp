@@ -13,8 +13,8 @@
 #include "lod/view.hpp"
 #include "viewer/draw_settings.hpp"
 #include "viewer/eye_height.hpp"
+#include "viewer/gl/render_target.hpp"
 #include "viewer/ground/ground_map.hpp"
-#include "viewer/render_target.hpp"
 #include "viewer/renderer.hpp"
 
 namespace relevo::viewer {

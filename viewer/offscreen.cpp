@@ -8,9 +8,9 @@
 #include "lod/soar/pick.hpp"
 #include "viewer/camera.hpp"
 #include "viewer/frame_budget.hpp"
-#include "viewer/gl_check.hpp"
-#include "viewer/label_keeper.hpp"
-#include "viewer/legend.hpp"
+#include "viewer/gl/gl_check.hpp"
+#include "viewer/marks/label_keeper.hpp"
+#include "viewer/marks/legend.hpp"
 
 namespace relevo::viewer {
 

@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "viewer/frame_block.hpp"
-#include "viewer/gl_check.hpp"
-#include "viewer/gl_program.hpp"
+#include "viewer/gl/gl_check.hpp"
+#include "viewer/gl/gl_program.hpp"
 
 namespace relevo::viewer {
 

@@ -12,14 +12,14 @@
 #include "lod/view.hpp"
 #include "viewer/draw_settings.hpp"
 #include "viewer/drawn_ground.hpp"
-#include "viewer/gl_object.hpp"
+#include "viewer/gl/gl_object.hpp"
+#include "viewer/gl/render_target.hpp"
 #include "viewer/ground/ground_cover.hpp"
 #include "viewer/ground/ground_textures.hpp"
 #include "viewer/ground/node_buffers.hpp"
 #include "viewer/layer.hpp"
 #include "viewer/ocean/ocean.hpp"
-#include "viewer/overlay_drawing.hpp"
-#include "viewer/render_target.hpp"
+#include "viewer/overlay/overlay_drawing.hpp"
 
 namespace relevo::viewer {
 

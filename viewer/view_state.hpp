@@ -11,7 +11,7 @@
 #include "viewer/height_ramp.hpp"
 #include "viewer/layer.hpp"
 #include "viewer/ocean/ocean_settings.hpp"
-#include "viewer/overlay.hpp"
+#include "viewer/overlay/overlay.hpp"
 #include "viewer/shading.hpp"
 #include "viewer/sun_setting.hpp"
 

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "viewer/gl_check.hpp"
+#include "viewer/gl/gl_check.hpp"
 
 namespace relevo::viewer {
 

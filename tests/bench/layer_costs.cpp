@@ -14,9 +14,9 @@
 
 #include "lod/scene/scene.hpp"
 #include "viewer/camera.hpp"
-#include "viewer/gl_check.hpp"
-#include "viewer/gl_context_egl.hpp"
-#include "viewer/label_keeper.hpp"
+#include "viewer/gl/gl_check.hpp"
+#include "viewer/gl/gl_context_egl.hpp"
+#include "viewer/marks/label_keeper.hpp"
 #include "viewer/mesher.hpp"
 #include "viewer/renderer.hpp"
 

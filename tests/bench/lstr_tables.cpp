@@ -28,8 +28,8 @@
 #include "lod/mesh_checks.hpp"
 #include "lod/oracle.hpp"
 #include "viewer/bench/machine.hpp"
-#include "viewer/gl_check.hpp"
-#include "viewer/gl_context_egl.hpp"
+#include "viewer/gl/gl_check.hpp"
+#include "viewer/gl/gl_context_egl.hpp"
 #include "viewer/renderer.hpp"
 
 namespace {

@@ -28,7 +28,7 @@
 #include "lod/ocean/radial_grid.hpp"
 #include "lod/scene/scene.hpp"
 #include "viewer/bench/ocean_stage.hpp"
-#include "viewer/gl_check.hpp"
+#include "viewer/gl/gl_check.hpp"
 #include "viewer/numbers.hpp"
 
 namespace {

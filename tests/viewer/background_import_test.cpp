@@ -1,4 +1,4 @@
-#include "viewer/background_import.hpp"
+#include "viewer/ui/background_import.hpp"
 
 #include <chrono>
 #include <stdexcept>

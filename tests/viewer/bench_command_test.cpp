@@ -16,7 +16,7 @@
 #include "tests/app/run_program.hpp"
 #include "tests/shared_data.hpp"
 #include "tests/viewer/scene_for_pictures.hpp"
-#include "viewer/flight_path.hpp"
+#include "viewer/flight/flight_path.hpp"
 
 namespace relevo::test {
 namespace {

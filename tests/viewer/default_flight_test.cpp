@@ -1,4 +1,4 @@
-#include "viewer/default_flight.hpp"
+#include "viewer/flight/default_flight.hpp"
 
 #include <cmath>
 #include <ostream>

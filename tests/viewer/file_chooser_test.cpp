@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/lod/scratch_scene.hpp"
-#include "viewer/recording.hpp"
+#include "viewer/flight/recording.hpp"
 #include "viewer/ui/desk.hpp"
 
 namespace relevo::viewer {

@@ -1,4 +1,4 @@
-#include "viewer/flight_path.hpp"
+#include "viewer/flight/flight_path.hpp"
 
 #include <cmath>
 #include <random>
@@ -9,7 +9,7 @@
 #include "geo/geodesic.hpp"
 #include "lod/view.hpp"
 #include "tests/lod/scratch_scene.hpp"
-#include "viewer/flight_recorder.hpp"
+#include "viewer/flight/flight_recorder.hpp"
 
 namespace relevo::viewer {
 namespace {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/viewer/studio.hpp"
-#include "viewer/gl_check.hpp"
-#include "viewer/gl_program.hpp"
+#include "viewer/gl/gl_check.hpp"
+#include "viewer/gl/gl_program.hpp"
 #include "viewer/offscreen.hpp"
 
 namespace relevo::test {

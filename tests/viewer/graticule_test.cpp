@@ -1,6 +1,6 @@
 // Graticules: lines where the coordinates are whole numbers of intervals, by GeographicLib.
 
-#include "viewer/graticule.hpp"
+#include "viewer/overlay/graticule.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 #include "tests/shared_data.hpp"
 #include "tests/viewer/read_dem.hpp"
 #include "tests/viewer/studio.hpp"
-#include "viewer/map_labels.hpp"
+#include "viewer/marks/map_labels.hpp"
 
 namespace relevo::test {
 namespace {

@@ -1,7 +1,7 @@
 // Labels of contours: on their lines, along them, and apart from each other. Truth is the terrain's own
 // formula.
 
-#include "viewer/map_labels.hpp"
+#include "viewer/marks/map_labels.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -11,7 +11,7 @@
 
 #include "lod/soar/pick.hpp"
 #include "tests/viewer/studio.hpp"
-#include "viewer/legend.hpp"
+#include "viewer/marks/legend.hpp"
 
 namespace relevo::test {
 namespace {

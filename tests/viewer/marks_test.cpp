@@ -1,6 +1,6 @@
 // Marks over pictures: the bar is as long as it says, and they are where they should be.
 
-#include "viewer/marks.hpp"
+#include "viewer/marks/marks.hpp"
 
 #include <cmath>
 
@@ -9,7 +9,7 @@
 
 #include "lod/soar/pick.hpp"
 #include "tests/viewer/studio.hpp"
-#include "viewer/scale_bar.hpp"
+#include "viewer/marks/scale_bar.hpp"
 #include "viewer/ui/picture_marks.hpp"
 
 namespace relevo::test {

@@ -1,4 +1,4 @@
-#include "viewer/measure_tool.hpp"
+#include "viewer/measure/measure_tool.hpp"
 
 #include <gtest/gtest.h>
 

@@ -15,8 +15,8 @@
 #include "tests/viewer/desktop.hpp"
 #include "tests/viewer/scene_for_pictures.hpp"
 #include "tests/viewer/studio.hpp"
-#include "viewer/flight_files.hpp"
-#include "viewer/flight_state.hpp"
+#include "viewer/flight/flight_files.hpp"
+#include "viewer/flight/flight_state.hpp"
 
 namespace relevo::viewer {
 namespace {

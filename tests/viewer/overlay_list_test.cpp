@@ -1,4 +1,4 @@
-#include "viewer/overlay_list.hpp"
+#include "viewer/overlay/overlay_list.hpp"
 
 #include <gtest/gtest.h>
 

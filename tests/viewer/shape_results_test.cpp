@@ -7,7 +7,7 @@
 
 #include "lod/measure/results.hpp"
 #include "tests/lod/measured_scene.hpp"
-#include "viewer/shape_result.hpp"
+#include "viewer/measure/shape_result.hpp"
 
 namespace relevo::viewer {
 namespace {

@@ -8,7 +8,7 @@
 #include "lod/view.hpp"
 #include "tests/lod/synthetic_terrain.hpp"
 #include "viewer/eye_height.hpp"
-#include "viewer/gl_context_egl.hpp"
+#include "viewer/gl/gl_context_egl.hpp"
 #include "viewer/mesher.hpp"
 #include "viewer/renderer.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "tests/app/run_program.hpp"
 #include "tests/viewer/window_fixture.hpp"
-#include "viewer/flight_path.hpp"
+#include "viewer/flight/flight_path.hpp"
 
 namespace relevo::test {
 namespace {

@@ -14,7 +14,7 @@
 #include "tests/shared_data.hpp"
 #include "tests/viewer/window_fixture.hpp"
 #include "viewer/camera.hpp"
-#include "viewer/flight_path.hpp"
+#include "viewer/flight/flight_path.hpp"
 
 namespace relevo::test {
 namespace {

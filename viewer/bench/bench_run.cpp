@@ -7,8 +7,8 @@
 
 #include "viewer/bench/bench_mesher.hpp"
 #include "viewer/camera.hpp"
-#include "viewer/gl_check.hpp"
-#include "viewer/gl_context_egl.hpp"
+#include "viewer/gl/gl_check.hpp"
+#include "viewer/gl/gl_context_egl.hpp"
 #include "viewer/renderer.hpp"
 
 namespace relevo::viewer {

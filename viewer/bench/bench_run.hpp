@@ -14,7 +14,7 @@
 #include "viewer/bench/machine.hpp"
 #include "viewer/bench/ocean_bench.hpp"
 #include "viewer/eye_height.hpp"
-#include "viewer/flight_path.hpp"
+#include "viewer/flight/flight_path.hpp"
 
 namespace relevo::viewer {
 

@@ -10,7 +10,7 @@
 #include "viewer/bench/open_sea.hpp"
 #include "viewer/camera.hpp"
 #include "viewer/eye_height.hpp"
-#include "viewer/gl_context_egl.hpp"
+#include "viewer/gl/gl_context_egl.hpp"
 #include "viewer/mesher.hpp"
 #include "viewer/renderer.hpp"
 

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "lod/terrain.hpp"
-#include "viewer/gl_object.hpp"
+#include "viewer/gl/gl_object.hpp"
 #include "viewer/ground/drape.hpp"
 #include "viewer/ground/ground_data.hpp"
 #include "viewer/ground/page_cache.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "geo/frame.hpp"
-#include "viewer/gl_object.hpp"
+#include "viewer/gl/gl_object.hpp"
 #include "viewer/ground/ground_map.hpp"
 
 namespace relevo::viewer {

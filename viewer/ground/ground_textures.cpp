@@ -5,8 +5,8 @@
 #include <epoxy/gl.h>
 
 #include "lod/cache_sizes.hpp"
-#include "viewer/gl_check.hpp"
-#include "viewer/gl_memory.hpp"
+#include "viewer/gl/gl_check.hpp"
+#include "viewer/gl/gl_memory.hpp"
 
 namespace relevo::viewer {
 

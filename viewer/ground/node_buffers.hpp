@@ -8,7 +8,7 @@
 
 #include "lod/lstr/chunk_picture.hpp"
 #include "lod/view.hpp"
-#include "viewer/gl_object.hpp"
+#include "viewer/gl/gl_object.hpp"
 
 namespace relevo::viewer {
 

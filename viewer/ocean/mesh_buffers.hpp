@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lod/ocean/ocean_mesh.hpp"
-#include "viewer/gl_object.hpp"
+#include "viewer/gl/gl_object.hpp"
 
 namespace relevo::viewer {
 

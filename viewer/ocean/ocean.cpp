@@ -12,8 +12,8 @@
 #include "lod/ocean/geoclipmap.hpp"
 #include "lod/ocean/projected_mesh.hpp"
 #include "lod/ocean/radial_grid.hpp"
-#include "viewer/gl_check.hpp"
-#include "viewer/gl_program.hpp"
+#include "viewer/gl/gl_check.hpp"
+#include "viewer/gl/gl_program.hpp"
 #include "viewer/ocean/ocean_block.hpp"
 
 namespace relevo::viewer {

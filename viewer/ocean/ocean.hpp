@@ -15,7 +15,7 @@
 #include "lod/ocean/waves.hpp"
 #include "lod/terrain.hpp"
 #include "lod/view.hpp"
-#include "viewer/gl_object.hpp"
+#include "viewer/gl/gl_object.hpp"
 #include "viewer/ground/ground_textures.hpp"
 #include "viewer/ocean/mesh_buffers.hpp"
 #include "viewer/ocean/ocean_settings.hpp"

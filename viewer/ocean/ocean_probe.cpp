@@ -10,7 +10,7 @@
 #include "geo/ellipsoid.hpp"
 #include "lod/soar/pick.hpp"
 #include "viewer/eye_height.hpp"
-#include "viewer/gl_check.hpp"
+#include "viewer/gl/gl_check.hpp"
 #include "viewer/renderer.hpp"
 
 namespace relevo::viewer {

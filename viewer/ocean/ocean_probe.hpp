@@ -18,7 +18,7 @@
 #include "lod/terrain.hpp"
 #include "lod/view.hpp"
 #include "viewer/draw_settings.hpp"
-#include "viewer/gl_object.hpp"
+#include "viewer/gl/gl_object.hpp"
 #include "viewer/ocean/ocean.hpp"
 
 namespace relevo::viewer {

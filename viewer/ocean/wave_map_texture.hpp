@@ -3,7 +3,7 @@
 #include <glm/vec2.hpp>
 
 #include "lod/ocean/wave_map.hpp"
-#include "viewer/gl_object.hpp"
+#include "viewer/gl/gl_object.hpp"
 
 namespace relevo::viewer {
 

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "geo/result.hpp"
-#include "viewer/background_import.hpp"
-#include "viewer/layer_files.hpp"
+#include "viewer/flight/layer_files.hpp"
+#include "viewer/ui/background_import.hpp"
 #include "viewer/ui/settings.hpp"
 #include "viewer/ui/ui.hpp"
 #include "viewer/window.hpp"

@@ -9,9 +9,9 @@
 #include "lod/measure/point.hpp"
 #include "lod/scene/scene_info.hpp"
 #include "lod/view.hpp"
-#include "viewer/flight_keys.hpp"
-#include "viewer/legend.hpp"
-#include "viewer/map_labels.hpp"
+#include "viewer/flight/flight_keys.hpp"
+#include "viewer/marks/legend.hpp"
+#include "viewer/marks/map_labels.hpp"
 #include "viewer/ui/free_area.hpp"
 #include "viewer/view_state.hpp"
 

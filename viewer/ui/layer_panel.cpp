@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "viewer/overlay_list.hpp"
+#include "viewer/overlay/overlay_list.hpp"
 
 namespace relevo::viewer {
 

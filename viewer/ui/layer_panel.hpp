@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "viewer/ground_layers.hpp"
-#include "viewer/overlay.hpp"
+#include "viewer/flight/ground_layers.hpp"
+#include "viewer/overlay/overlay.hpp"
 #include "viewer/ui/panels.hpp"
 
 namespace relevo::viewer {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "lod/view.hpp"
-#include "viewer/legend.hpp"
-#include "viewer/map_labels.hpp"
-#include "viewer/scale_bar.hpp"
+#include "viewer/marks/legend.hpp"
+#include "viewer/marks/map_labels.hpp"
+#include "viewer/marks/scale_bar.hpp"
 #include "viewer/ui/free_area.hpp"
 
 struct ImDrawList;

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "viewer/measuring.hpp"
+#include "viewer/measure/measuring.hpp"
 #include "viewer/ui/number_box.hpp"
 #include "viewer/ui/panels.hpp"
 

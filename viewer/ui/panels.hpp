@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "viewer/flight_keys.hpp"
-#include "viewer/flight_path.hpp"
-#include "viewer/ground_layers.hpp"
-#include "viewer/layer_files.hpp"
-#include "viewer/marks.hpp"
-#include "viewer/measuring.hpp"
+#include "viewer/flight/flight_keys.hpp"
+#include "viewer/flight/flight_path.hpp"
+#include "viewer/flight/ground_layers.hpp"
+#include "viewer/flight/layer_files.hpp"
+#include "viewer/marks/marks.hpp"
+#include "viewer/measure/measuring.hpp"
 #include "viewer/ui/desk.hpp"
 #include "viewer/ui/file_chooser.hpp"
 #include "viewer/ui/hud.hpp"

@@ -8,7 +8,7 @@
 #include <epoxy/gl.h>
 #include <imgui.h>
 
-#include "viewer/gl_check.hpp"
+#include "viewer/gl/gl_check.hpp"
 #include "viewer/ui/font.hpp"
 
 namespace relevo::viewer {

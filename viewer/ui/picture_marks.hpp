@@ -4,7 +4,7 @@
 
 #include "geo/result.hpp"
 #include "lod/view.hpp"
-#include "viewer/gl_object.hpp"
+#include "viewer/gl/gl_object.hpp"
 #include "viewer/picture.hpp"
 #include "viewer/ui/map_marks.hpp"
 
