@@ -5,9 +5,9 @@
 float slope_of(float value) { return length(vec2(dFdx(value), dFdy(value))); }
 
 // Lines at whole values, so many pixels wide whatever the scale: their part of a pixel. In pictures that are larger than
-// a window (viewer/marks/marks.hpp) all of them are as many times wider. Where they come nearer than twice `room` pixels together
-// they fade, and where they have less than that there is none. Where the value does not change there is no line, be it at a
-// whole one: a plain has lines at its edge alone.
+// a window (viewer/marks/marks.hpp) all of them are as many times wider. Where they come nearer than twice `room` pixels
+// together they fade, and where they have less than that there is none. Where the value does not change there is no
+// line, be it at a whole one: a plain has lines at its edge alone.
 float lines_at(float value, float slope, float width, float room) {
     float off = abs(fract(value + 0.5) - 0.5);
     float pixels = off / max(slope, 1e-12);
