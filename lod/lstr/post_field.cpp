@@ -192,7 +192,10 @@ inline double PostField::off_squared(const glm::dvec3& drawn, int column, int ro
     return glm::dot(off, off);
 }
 
-double PostField::edge_error(const PlacedPost& a, const PlacedPost& b, double enough) const {
+// Compiled for newer machines too: rounding down is one instruction there, and making nodes takes 6 % less
+// time.
+[[RELEVO_CLONES("avx2", "default")]] double PostField::edge_error(const PlacedPost& a, const PlacedPost& b,
+                                                                  double enough) const {
     // In posts of the field.
     const auto scaled = [&](int at, int first) { return static_cast<double>(at - first) / stride_; };
     const glm::dvec2 from(scaled(a.at.column, first_.column), scaled(a.at.row, first_.row));
