@@ -121,6 +121,19 @@ TEST_F(WindowTest, ScreenshotsShowTheReadOutOverTheGround) {
         << "the list of keys";
 }
 
+// Of nodes in graphics memory the mesh that is measured is made for it.
+TEST_F(WindowTest, MeasuresTheErrorOfWhatIsOnTheScreen) {
+    for (const char* method : {"lstr", "soar"}) {
+        open(fmt::format("--lod {} --tau 2", method));
+        press("F8");
+        const double error_px =
+            std::stod(said("Measured: ([0-9.]+) px at most, .* posts and [0-9]+ pixels, tau 2 px"));
+        EXPECT_GT(error_px, 0.1) << method;
+        EXPECT_LE(error_px, 2) << method;
+        close();
+    }
+}
+
 TEST_F(WindowTest, FliesByItselfAndClosesAfterSomeFrames) {
     start(std::string("--fly 300 --frames 12 --json ") + kMap);  // it may be gone before it is looked for
     ASSERT_EQ(desktop_.wait_for_exit(program_), 0) << contents(folder_ / "err");

@@ -292,6 +292,7 @@ class Flight {
     }
 
     std::vector<Wish> draw_interface(const lod::View& view) {
+        if (const auto found = flight_.error.finish()) flight_.say(*found);
         std::optional<double> reached;
         if (flight_.options.budget.any() || figures_.tau_reached_px > flight_.view.tau_px)
             reached = figures_.tau_reached_px;

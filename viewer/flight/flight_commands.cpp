@@ -123,7 +123,7 @@ void obey(FlightState& flight, const Wish& wish, int width, int height) {
             if (flight.drawn)
                 flight.error.begin(flight.terrain, *flight.drawn, flight.mesh(), view.exaggeration,
                                    view.tau_px);
-            desk.show_panel(true);
+            flight.tell("measuring the picture's error...");
             break;
         case Command::screenshot:
             flight.screenshot_wanted = true;

@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace relevo::viewer {
 
@@ -15,17 +16,24 @@ void ErrorProbe::begin(const lod::Terrain& terrain, const lod::View& view, const
     });
 }
 
-std::vector<std::string> ErrorProbe::report() {
-    if (!busy()) return last_;
-    if (running_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
-        return {"measuring the picture's error..."};
+std::optional<std::string> ErrorProbe::finish() {
+    if (!busy() || running_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+        return std::nullopt;
     const auto error = running_.get();
-    if (!error) return last_ = {"No ground was in view."};
+    if (!error) {
+        last_ = {"No ground was in view."};
+        return last_[0];
+    }
     last_ = {fmt::format("Measured: {:.3f} px at most, RMS {:.3f}, 99 % below {:.3f}", error->max_px,
                          error->rms_px, error->p99_px),
              fmt::format("at {} posts and {} pixels, tau {:.3g} px", error->posts, error->pixels, tau_px_)};
     if (error->uncovered_posts > 0)
         last_.push_back(fmt::format("{} posts in view under no triangle", error->uncovered_posts));
+    return fmt::format("{}", fmt::join(last_, ", "));
+}
+
+std::vector<std::string> ErrorProbe::report() const {
+    if (busy()) return {"measuring the picture's error..."};
     return last_;
 }
 

@@ -18,8 +18,11 @@ class ErrorProbe {
                double tau_px);
     bool busy() const { return running_.valid(); }
 
-    /// What was found, or how far it is, for people; empty before the first.
-    std::vector<std::string> report();
+    /// Takes in what has been found: for people, once; nothing before.
+    std::optional<std::string> finish();
+
+    /// What was found, or that it goes on, for people; empty before the first.
+    std::vector<std::string> report() const;
 
   private:
     std::future<std::optional<lod::MeasuredError>> running_;
