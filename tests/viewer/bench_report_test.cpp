@@ -49,6 +49,12 @@ TEST(BenchSummary, QuantilesAreValuesThatOccurred) {
     EXPECT_EQ(quantiles_of({}).median, 0);
 }
 
+TEST(BenchSummary, KnowsThatNodesHaveMoreToAVertex) {
+    BenchResult result;
+    result.rows = {row(BenchMethod::lstr, true, 1, {frame(0, 100, 4, 0.5)})};
+    EXPECT_EQ(summarize(result)[0].mesh_bytes_per_vertex, 21 + 12 * 2);
+}
+
 TEST(BenchSummary, AddsUpErrorsOverFrames) {
     BenchResult result;
     result.rows = {row(BenchMethod::soar_bounded, false, 1,

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "viewer/ground/node_buffers.hpp"
+
 namespace relevo::viewer {
 
 namespace {
@@ -69,9 +71,11 @@ BenchSummary summary_of(const BenchRow& row) {
     summary.frame_ms = quantiles([](const BenchFrame& f) { return f.frame_ms(); });
     summary.pending_tiles = quantiles([](const BenchFrame& f) { return f.pending_tiles; });
     if (summary.vertices.mean > 0) {
-        summary.mesh_bytes_per_vertex =
-            static_cast<double>(sizeof(lod::MeshVertex)) +
-            3 * sizeof(std::uint32_t) * summary.triangles.mean / summary.vertices.mean;
+        const std::size_t vertex_bytes =
+            row.setting.method == BenchMethod::lstr ? NodeBuffers::kVertexBytes : sizeof(lod::MeshVertex);
+        summary.mesh_bytes_per_vertex = static_cast<double>(vertex_bytes) + 3 * sizeof(std::uint32_t) *
+                                                                                summary.triangles.mean /
+                                                                                summary.vertices.mean;
     }
     for (const BenchFrame& frame : row.frames) {
         summary.resident_mib = std::max(summary.resident_mib, frame.resident_mib);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <vector>
@@ -17,6 +18,9 @@ namespace relevo::viewer {
 /// NODES).
 class NodeBuffers {
   public:
+    /// Of a vertex, with what it moves with.
+    static constexpr std::size_t kVertexBytes = sizeof(lod::PlacedChunk::Vertex) + sizeof(std::uint8_t);
+
     NodeBuffers();
 
     /// Sends what a picture has and is not there; it is drawn until the next one comes. Lets go of what was
