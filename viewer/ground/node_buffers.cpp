@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstring>
+#include <span>
 #include <utility>
 
 #include <epoxy/gl.h>
@@ -70,11 +70,14 @@ NodeBuffers::Node NodeBuffers::send(const lod::SelectedChunk& chunk) {
     made.indices_at = (made.parts_at + static_cast<std::intptr_t>(vertices) + 3) / 4 * 4;
     made.bytes = static_cast<std::uint64_t>(made.indices_at) + indices.size() * sizeof(indices[0]);
     std::vector<std::byte> bytes(made.bytes);
-    std::memcpy(bytes.data(), own.data(), own.size() * sizeof(Vertex));
-    std::memcpy(bytes.data() + own.size() * sizeof(Vertex), finer.vertices.data(),
-                finer.vertices.size() * sizeof(Vertex));
-    std::memcpy(bytes.data() + made.parts_at, parts.data(), parts.size());
-    std::memcpy(bytes.data() + made.indices_at, indices.data(), indices.size() * sizeof(indices[0]));
+    const auto put = [&](const auto& values, std::intptr_t at) {
+        const auto from = std::as_bytes(std::span(values));
+        std::copy(from.begin(), from.end(), bytes.begin() + at);
+    };
+    put(own, 0);
+    put(finer.vertices, static_cast<std::intptr_t>(own.size() * sizeof(Vertex)));
+    put(parts, made.parts_at);
+    put(indices, made.indices_at);
     made.buffer = GlBuffer::create();
     glNamedBufferStorage(made.buffer.name(), static_cast<GLsizeiptr>(bytes.size()), bytes.data(), 0);
     return made;
