@@ -204,13 +204,12 @@ Result<GlName> Renderer::terrain_program(const Variant& variant) {
 }
 
 void Renderer::upload(const DrawnGround& ground) {
-    const auto* nodes = std::get_if<lod::ChunkPicture>(&ground);
-    draws_nodes_ = nodes != nullptr;
-    if (nodes != nullptr) {
+    if (const auto* nodes = std::get_if<lod::ChunkPicture>(&ground)) {
         if (!nodes_) nodes_.emplace();
         nodes_->upload(*nodes);
         return;
     }
+    nodes_.reset();  // what is not drawn keeps no memory
     const lod::Mesh& mesh = std::get<0>(ground);
     stream(vertices_, vertex_bytes_, mesh.vertices.data(), mesh.vertices.size() * sizeof(lod::MeshVertex));
     stream(indices_, index_bytes_, mesh.indices.data(), mesh.indices.size() * sizeof(std::uint32_t));
@@ -248,7 +247,7 @@ Result<void> Renderer::complete(const lod::View& view, const DrawSettings& setti
 Renderer::Variant Renderer::variant(const DrawSettings& settings) const {
     return {.layer = settings.layer,
             .shading = is_shaded(settings.layer) ? settings.shading : Shading::sun,
-            .nodes = draws_nodes_,
+            .nodes = nodes_.has_value(),
             .wireframe = settings.wireframe && settings.layer != Layer::plain,
             .sun_fixed = settings.sun.kind == SunSetting::Kind::time,
             .sky = !settings.background,
@@ -294,7 +293,7 @@ void Renderer::prepare(const lod::View& view, const DrawSettings& settings, cons
 }
 
 int Renderer::draw_terrain(GlName program, const lod::View& view, const DrawSettings& settings) {
-    if (draws_nodes_ ? nodes_->empty() : index_count_ == 0) return 0;
+    if (nodes_ ? nodes_->empty() : index_count_ == 0) return 0;
     glUseProgram(program);
     ground_->bind();
     if (settings.layer == Layer::terrain) cover_->bind();
@@ -303,7 +302,7 @@ int Renderer::draw_terrain(GlName program, const lod::View& view, const DrawSett
     glEnable(GL_CLIP_DISTANCE0);
     glEnable(GL_CLIP_DISTANCE1);
     int calls = 1;
-    if (draws_nodes_) {
+    if (nodes_) {
         calls = nodes_->draw(view);
     } else {
         glBindVertexArray(vertex_array_.name());

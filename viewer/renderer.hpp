@@ -139,8 +139,7 @@ class Renderer {
     GlVertexArray no_vertices_;  // the sky's: core OpenGL draws nothing without one
     GlQuery seen_;
     int index_count_ = 0;
-    std::optional<NodeBuffers> nodes_;  // made with the first of them
-    bool draws_nodes_ = false;          // instead of the mesh
+    std::optional<NodeBuffers> nodes_;  // while they are drawn, instead of the mesh
     float base_undulation_m_ = 0;       // of the sea's level, at the middle of the data
 };
 

@@ -121,6 +121,17 @@ TEST(NodeBuffers, SendANodeOnceAndKeepABoundedNumber) {
     EXPECT_LT(most_bytes, 4 * first.bytes);
 }
 
+TEST(NodeBuffers, AreGoneWhenAMeshIsDrawn) {
+    Trial trial;
+    const lod::View view = trial.over(100, 300);
+    const auto picture = must(trial.mesher.whole_picture(view, {.tau_px = 1}));
+    viewer::Renderer& renderer = trial.studio.renderer();
+    renderer.upload(picture);
+    EXPECT_GT(renderer.node_figures().bytes, 0u);
+    renderer.upload(trial.mesher.assemble(view, picture));
+    EXPECT_EQ(renderer.node_figures().bytes, 0u);
+}
+
 TEST(NodeBuffers, AnEyeFarBeyondTheTerrainSeesIt) {
     Trial trial;
     for (const double metres : {300e3, 3e6}) {  // beyond the whole numbers of places, which end at 64 km
